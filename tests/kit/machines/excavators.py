@@ -541,13 +541,17 @@ class Digger(Drawer):
     def hydraulics(self) -> None:
         s = self.s
 
-        def ram(name: str, barrel: str, rod: str, ends: str, y: float, bore: float) -> None:
-            self.cylinder(name, barrel, rod, self.at(ends[0], y), self.at(ends[1], y), Y, bore * s)
+        def ram(
+            name: str, barrel: str, rod: str, ends: str, y: float, bore: float, longest: float | None = None
+        ) -> None:
+            self.cylinder(name, barrel, rod, self.at(ends[0], y), self.at(ends[1], y), Y, bore * s, longest=longest)
 
         ram("arm", "arm_cylinder_barrel", "arm_piston_rod", "MP", 0.0, 0.065)
         ram("bucket", "bucket_cylinder_barrel", "bucket_piston_rod", "EH", 0.0, 0.055)
         if self.f.two_piece:
-            ram("adjust", "adjust_cylinder_barrel", "adjust_piston_rod", "RS", 0.0, 0.07)
+            # It ends before both of its pins and the boom's are in line.
+            dead = sum(float(np.hypot(*(self.P[k] - self.P["Q"]))) for k in "RS")
+            ram("adjust", "adjust_cylinder_barrel", "adjust_piston_rod", "RS", 0.0, 0.07, 0.94 * dead)
         if self.f.boom_cylinders == "single":
             ram("boom", "boom_cylinder_barrel", "boom_piston_rod", "CD", 0.0, 0.07)
         elif self.f.boom_cylinders == "twin":

@@ -9,6 +9,8 @@ from kit.machines.solids import Array, around, box, lathe, place, plate, tube
 from kit.machines.synthetic import Drawer, X, Y, Z, polar
 
 SIDES = ((1, "l"), (-1, "r"))
+KING, ARM = 0.69, 0.187
+"""Of a steered axle, in machine sizes: its knuckles' pins from the middle, and how far behind them their arms end."""
 
 
 class SteeredChassis(Drawer):
@@ -17,6 +19,8 @@ class SteeredChassis(Drawer):
     axle_z: float
     carrier = "chassis"
     """The body that carries the axles."""
+    arm_in = 0.03
+    """How far the knuckles' arms reach in, in machine sizes."""
     leg: float
     leg_pin: Array
     leg_rod: Array
@@ -88,7 +92,7 @@ class SteeredChassis(Drawer):
         s, t, e, m, z = self.s, self.t, self.e, self.m, self.axle_z
         body = self.carrier if fast else f"{end}_axle"
         rod_body = f"{prefix}steering_piston_rod"
-        r, king, a = 2.2 * self.pin_r, 0.69 * s, x / s
+        r, king, a = 2.2 * self.pin_r, KING * s, x / s
         self.block("axle beam", body, (a - 0.06, -0.6, z / s - 0.05), (a + 0.06, 0.6, z / s + 0.05))
         if fast:
             for side, _ in SIDES:
@@ -114,7 +118,7 @@ class SteeredChassis(Drawer):
                 span = 0.5 * (near - far) + t
                 start = np.array([middle - span, 0.0, z])
                 self.pin(f"{end}_axle_pin", self.carrier, start, start + 2 * span * X)
-        arm_x, end_x = x - 0.187 * s, x - 0.212 * s
+        arm_x, end_x = x - ARM * s, x - 0.212 * s
         ram_z = z - 0.1 * s
         low = ram_z - 0.045 * s
         bore, rod, half = 0.035 * s, 0.02 * s, 0.17 * s
@@ -139,7 +143,7 @@ class SteeredChassis(Drawer):
         for side, letter in SIDES:
             k, arm, tip = (
                 np.array([x, side * king]),
-                np.array([arm_x, side * (king - 0.03 * s)]),
+                np.array([arm_x, side * (king - self.arm_in * s)]),
                 np.array([end_x, side * 0.34 * s]),
             )
             wall = side * (0.6 * s - e)

@@ -214,9 +214,20 @@ class Drawer:
         return 1.2 * r
 
     def cylinder(
-        self, name: str, barrel: str, rod: str, P: Array, Q: Array, across: Array, bore: float, *, roles: bool = True
+        self,
+        name: str,
+        barrel: str,
+        rod: str,
+        P: Array,
+        Q: Array,
+        across: Array,
+        bore: float,
+        *,
+        roles: bool = True,
+        longest: float | None = None,
     ) -> None:
-        """Barrel with its eye at P, rod with its eye at Q, pins along `across`."""
+        """Barrel with its eye at P, rod with its eye at Q, pins along `across`. The piston stands so near to the mouth
+        that it reaches little further than the `longest` length."""
         self.m.pose, kept = np.eye(4), self.m.pose
         length = float(np.linalg.norm(Q - P))
         d = (Q - P) / length
@@ -251,6 +262,8 @@ class Drawer:
         )
         self.m.add(f"{name} gland", barrel, barrel, gland, place(P + d * mouth, d))
         inside = tube_start + cap + (tube_end - tube_start - cap) * float(self.rng.uniform(0.3, 0.7))
+        if longest is not None:
+            inside = max(inside, mouth - 1.8 * bore - max(0.0, longest - length))
         end = length - eye
         self.m.add(f"{name} rod", rod, rod, tube(f"{name}_rod", rod_r, 0.0, end - inside), place(P + d * inside, d))
         if self.rng.random() < 0.5:

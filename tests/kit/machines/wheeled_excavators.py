@@ -8,7 +8,7 @@ from dataclasses import replace
 import numpy as np
 
 from kit.machines.excavators import Digger, Features, any_features
-from kit.machines.steered_chassis import SIDES, SteeredChassis
+from kit.machines.steered_chassis import ARM, KING, SIDES, SteeredChassis
 from kit.machines.synthetic import Machine, X
 
 BODY = "undercarriage"
@@ -28,6 +28,8 @@ class Carrier(SteeredChassis):
         self.t, self.pin_r, self.eye_w = 0.026 * s, 0.03 * s, 0.062 * s
         self.gap = min(self.gap, 0.002 * s)
         self.clearance = min(self.clearance, 0.0003 * s)
+        # The arms point at the middle of the rear axle, so that all wheels roll about one point (Ackermann).
+        self.arm_in = ARM * KING * s / (self.front_x - self.rear_x)
 
     def frame(self, legs: bool) -> None:
         """Rails, what joins them, what holds the bearing, the rear wheels' box; at the ends blade and stabilizers."""

@@ -40,6 +40,8 @@ EACH = 1.0
 """… and for one program of it: 0.01 to 0.7."""
 MANY_JOINTS = 30
 """A type with more joints may take more, as their cube: a backhoe loader of 59 to 63 took up to 8 for one program."""
+BROKEN = 1.1
+"""More pieces that move than this many for a body, and four: spacers and rings on pins are some."""
 AGAIN = 0.5
 """The share of it for a search made again without names."""
 BELIEVED = 0.6
@@ -133,7 +135,9 @@ class Search:
         if careful and known:
             yield from list(known)
             return
-        for structure in _structures(observation, self.template, careful=careful):
+        first = _by_cylinders(variants_of(self.template, self.choices), self.template, len(observation.cylinders))[0]
+        bodies = max(sum(r.rigid for r in machine_of(self.template, chosen).roles) for chosen in first)
+        for structure in _structures(observation, self.template, bodies, careful=careful):
             if not any(_equal(structure, other) for other in known):
                 known.append(structure)
                 yield structure
@@ -194,16 +198,15 @@ def _by_cylinders(variants: list[dict[str, str]], template: Template, drawn: int
     return [groups[key] for key in sorted(groups)]
 
 
-def _structures(observation: Observation, template: Template, *, careful: bool) -> Iterator[Structure]:
-    """Readings of the welds, likeliest first: flat contact alone, unless that leaves far more pieces than bodies; then
-    also what touches; each first with wide round things fast in their bores, then turning in them. `careful`: without
-    the welds that lock a pin."""
+def _structures(observation: Observation, template: Template, bodies: int, *, careful: bool) -> Iterator[Structure]:
+    """Readings of the welds, likeliest first: flat contact alone, unless that leaves more pieces that move than the
+    machine has `bodies`; then also what touches; each first with wide round things fast in their bores, then turning in
+    them. `careful`: without the welds that lock a pin."""
     if not observation.evidence:
         yield Structure()
         return
     read = functools.cache(functools.partial(structure_of, leaves=_has_leaves(template), careful=careful))
-    bodies = sum(1 for r in machine_of(template, {}).roles if r.rigid)
-    broken = loose_ends(read(observation.evidence[0], weak=False)) > 1.3 * bodies + 4
+    broken = loose_ends(read(observation.evidence[0], weak=False)) > BROKEN * bodies + 4
     for weak in (broken, not broken):
         for evidence in observation.evidence:
             yield read(evidence, weak=weak)

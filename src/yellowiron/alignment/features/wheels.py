@@ -33,6 +33,8 @@ CENTRED = 0.2
 """The middle of a rim or a tyre is this near to the wheel's axis, in radii of its ring, …"""
 SQUARE = 0.1
 """… and its height and length differ by no more than this share."""
+ROLLING = 0.5
+"""Wheels of one size are steered against each other by less than this cosine says (60°)."""
 TREAD = 2.2
 """A tyre is no more than so much larger than the ring of its rim."""
 WIDER = 1.3
@@ -91,10 +93,18 @@ def wheels_of(solids: tuple[Solid, ...], count: int, taken: set[int], tolerance:
         if found and s.reach < 0.45 * found[0].radius:
             break
         found.append(Wheel(frozenset({s.index}), s.index, centre, s.axis.direction, s.reach, width))
-    equal = [w for w in found if any(v is not w and abs(v.radius - w.radius) < 0.02 * w.radius for v in found)]
+    equal = [w for w in found if any(v is not w and _alike(v, w) for v in found)]
     if len(equal) > count:
         equal = _twin_tyres(equal)
     return [_with_all_about(w, solids, taken, tolerance) for w in equal[:count]] if len(equal) >= 2 else []
+
+
+def _alike(one: Wheel, other: Wheel) -> bool:
+    """Whether two rings are as large, and roll much the same way: a slewing bearing as large as the wheels lies across
+    them, however these are steered."""
+    return (
+        abs(one.radius - other.radius) < 0.02 * other.radius and abs(float(one.direction @ other.direction)) > ROLLING
+    )
 
 
 def _twin_tyres(wheels: list[Wheel]) -> list[Wheel]:

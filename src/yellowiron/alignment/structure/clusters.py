@@ -104,6 +104,8 @@ def _tagged(evidence: ContactEvidence) -> Groups:
             else:
                 for other in half - {min(half)}:
                     groups.join(min(half), other)
+        if cylinder.fixed:
+            groups.keep_apart(min(cylinder.barrel), min(cylinder.rod))
     for k, wheel in enumerate(evidence.wheels):
         groups.tag(wheel.members, ("wheel", k))
     for ring, around in evidence.pressed:

@@ -8,11 +8,13 @@ from yellowiron.support.graphs import LedSets
 
 
 class Groups:
-    """Groups of solids. Two labelled groups (wheel, barrel, rod) never join; wheels take nothing in."""
+    """Groups of solids. Two labelled groups (wheel, barrel, rod) never join, nor do two that are kept apart; wheels
+    take nothing in."""
 
     def __init__(self, count: int) -> None:
         self._sets = LedSets(range(count))
         self._label: dict[int, tuple[str, int]] = {}
+        self._apart: dict[int, set[int]] = {}
 
     def find(self, i: int) -> int:
         """The group of a solid: its smallest member so far."""
@@ -25,6 +27,12 @@ class Groups:
             self._sets.join(first, other)
         self._label[self.find(first)] = label
 
+    def keep_apart(self, i: int, j: int) -> None:
+        """Two solids' groups slide on each other, and never join."""
+        a, b = self.find(i), self.find(j)
+        self._apart.setdefault(a, set()).add(b)
+        self._apart.setdefault(b, set()).add(a)
+
     def label(self, i: int) -> tuple[str, int]:
         """(kind, number) of a solid's group; ("", -1) without one."""
         return self._label.get(self.find(i), ("", -1))
@@ -34,9 +42,9 @@ class Groups:
         return self.label(i)[0]
 
     def may_join(self, i: int, j: int) -> bool:
-        """False for two labelled groups, and for wheels."""
+        """False for two labelled groups, for wheels, and for what is kept apart."""
         kinds = self.kind(i), self.kind(j)
-        return "wheel" not in kinds and not all(kinds)
+        return "wheel" not in kinds and not all(kinds) and self.find(j) not in self._apart.get(self.find(i), ())
 
     def join(self, i: int, j: int) -> bool:
         """Joins two solids' groups if they may be; True if they are one now."""
@@ -50,4 +58,7 @@ class Groups:
         self._sets.join(a, b)
         if label is not None:
             self._label[a] = label
+        for other in self._apart.pop(b, set()):
+            self._apart[other].discard(b)
+            self.keep_apart(a, other)
         return True
