@@ -11,7 +11,7 @@ import numpy as np
 from drawing.cylinders import Cylinder
 from drawing.planar import Point, rot
 from drawing.product import Assembly, extent, occurrences
-from drawing.stabiliser import FOOT, HEEL, LEG, LOWERED, RAISED
+from drawing.stabiliser import HEEL, LOWERED, RAISED
 from drawing.truth import CadFrame, Joints, document, twin_slides, value_rows
 from drawing.wheels import wheel_places
 
@@ -105,7 +105,6 @@ def measured() -> dict[str, float]:
     k, hoe, leg, swing = solve_loader(), solve_backhoe(), solve_stabiliser(), solve_swing()
     high, ground = k.pose(LIFTS[1], TILTS[0]), k.pose(k.lift_for_hinge(DEPTH), TILTS[1])
     dump = k.pose(LIFTS[1], k.tilt_for_angle(LIFTS[1], math.radians(-45.0), TILTS))
-    foot = leg.pin[1] - FOOT
     return ranges(hoe.A, hoe.tip, hoe.ends()) | {
         v.HINGE_HEIGHT.name: float(high.B[1]),
         v.DUMP_ANGLE.name: -math.degrees(high.bucket_angle),
@@ -113,7 +112,7 @@ def measured() -> dict[str, float]:
         v.DUMP_HEIGHT.name: float(dump.T[1]),
         v.DUMP_REACH.name: float(dump.T[0]) - FRONT_X - FRONT_RADIUS,
         v.LOADER_DEPTH.name: -float(k.pose(LIFTS[0], TILTS[0]).B[1] + k.T[1]),
-        v.SPREAD.name: 2.0 * (float(leg.pin[0]) + math.sqrt(LEG**2 - foot**2) + FOOT),
+        v.SPREAD.name: leg.widest,
         v.FEET_CLEARANCE.name: float(leg.pin[1]) - HEEL,
         v.STABILISER_STROKE.name: leg.length(LOWERED) - leg.length(RAISED),
         v.SWING_STROKE.name: swing.length(HALF_ARC) - swing.length(-HALF_ARC),
