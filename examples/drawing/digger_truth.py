@@ -1,14 +1,16 @@
-"""What the truth about a digger says of its planar linkage: its joints, and where its bodies go."""
+"""What the truth about a digger says of its planar linkage: its joints, where its bodies go, its forces."""
 
 from __future__ import annotations
 
+import math
 from collections.abc import Collection
 
+import numpy as np
 from OCP.gp import gp_Trsf
 
 from .digger import Linkage, Pose
 from .hardware import placed
-from .planar import Point, direction
+from .planar import Point, direction, rot, vec
 from .truth import Joints, Triple
 
 
@@ -63,3 +65,29 @@ def dig(found: Joints, k: Linkage, pose: Pose, base: str, apart: float) -> None:
     pivot("bucket_piston_rod", "tipping_link", pose.H)
     pivot("bucket_piston_rod", "bucket_link", pose.H)
     pivot("bucket_link", "bucket", pose.J)
+
+
+def _curl(k: Linkage) -> tuple[float, float]:
+    """The length of the bucket cylinder at which it turns the bucket the least, and radians a millimetre there."""
+    low, high = k.strokes.bucket
+    lengths = np.arange(low + 0.5, high - 0.5, 1.0)
+    turns = [(k.four_bar(c - 0.5)[0] - k.four_bar(c + 0.5)[0]) % (2 * math.pi) for c in map(float, lengths)]
+    return float(lengths[int(np.argmin(turns))]), min(turns)
+
+
+def _push(pressure: float, bore: float) -> float:
+    return pressure * math.pi / 4 * bore**2 / 1000.0
+
+
+def bucket_force(k: Linkage, pressure: float, bore: float) -> float:
+    """Largest force at the tooth points from the bucket cylinder alone at a pressure (MPa), kN: by virtual work, over
+    the stroke (ISO 6015 without its limits of stability)."""
+    return _push(pressure, bore) / (_curl(k)[1] * k.tip)
+
+
+def arm_force(k: Linkage, pressure: float, bore: float) -> float:
+    """Largest force at the tooth points from the arm cylinder alone at a pressure (MPa), kN; the bucket curled to where
+    its own force is largest."""
+    best = k.four_bar(_curl(k)[0])[0]
+    radius = float(np.hypot(*(vec(k.arm, 0.0) + rot(best, vec(k.tip, 0.0)))))
+    return _push(pressure, bore) * float(np.hypot(*k.P)) / radius

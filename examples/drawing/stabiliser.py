@@ -11,8 +11,9 @@ from scipy.optimize import brentq
 
 from .hardware import CLEARANCE
 from .planar import Point, direction, rot, vec
-from .product import Assembly, Part
-from .solids import X, bored, cut, fuse, mirrored, plate, rod, shift
+from .product import Assembly, Part, Use
+from .solids import X, bored, cut, frame, fuse, mirrored, plate, rod, shift
+from .truth import Joints
 
 HEEL, FOOT = 110.0, 60.0
 """Radii of a leg's ends."""
@@ -114,3 +115,22 @@ def draw_stabilisers(leg: Stabiliser, angle: float, x: tuple[float, float], hard
         role = f"stabilizer_piston_rod_{letter}_pin"
         hardware.add(bar, body, role, shift(x[0] - 4, sign * float(qy), float(qz)))
     return tree
+
+
+def put_stabiliser_cylinders(tree: Assembly, cylinder: Assembly, leg: Stabiliser, angle: float, x: float) -> None:
+    """A drawn cylinder between its pins on either side, the legs at an angle."""
+    (by, bz), (qy, qz) = leg.barrel, leg.rod(angle)
+    for letter, sign in (("l", 1.0), ("r", -1.0)):
+        along = (0.0, sign * float(qy - by), float(qz - bz))
+        # Drawn with its pins along y, which lie along the machine here.
+        at = frame((x, sign * float(by), float(bz)), along, (0.0, -along[2], along[1]))
+        names = {"barrel": f"stabilizer_cylinder_barrel_{letter}", "rod": f"stabilizer_piston_rod_{letter}"}
+        tree.uses.append(Use(cylinder, at, names=names))
+
+
+def leg_joints(found: Joints, leg: Stabiliser, angle: float, x: float, on: str) -> None:
+    """The joints of both legs, at an angle, and of their cylinders on the body that carries them."""
+    for letter, sign in (("l", 1.0), ("r", -1.0)):
+        pin, p, q = ((x, sign * float(c[0]), float(c[1])) for c in (leg.pin, leg.barrel, leg.rod(angle)))
+        found.pivot(on, f"stabilizer_{letter}", pin, X)
+        found.cylinder("stabilizer", f"_{letter}", (on, f"stabilizer_{letter}"), p, q, X)

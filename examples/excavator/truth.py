@@ -13,8 +13,8 @@ from scipy.optimize import brentq
 
 from drawing.cylinders import Cylinder
 from drawing.digger import Linkage, Pose, wrapped
-from drawing.digger_truth import moves
-from drawing.planar import Point, rot, vec
+from drawing.digger_truth import arm_force, bucket_force, moves
+from drawing.planar import Point
 from drawing.product import Assembly, Occurrence, extent, farthest, occurrences
 from drawing.truth import CadFrame, value_rows
 
@@ -22,12 +22,10 @@ from . import values as v
 from .bucket import floor_angle
 from .equipment import CYLINDER_Y
 from .linkage import (
-    ARM,
     ARM_MAX,
     BOOM_MAX,
     BOOM_MIN,
     BUCKET_MAX,
-    BUCKET_MIN,
     LEVEL,
     ranges,
 )
@@ -149,30 +147,9 @@ def measured(k: Linkage) -> dict[str, float]:
     return got | {
         v.LEVEL_DEPTH.name: float(brentq(miss, 6000.0, v.DIGGING_DEPTH.value - 1.0, xtol=1e-9)),
         v.WALL_DEPTH.name: k.wall_depth(floor_angle(k)),
-        v.BUCKET_FORCE.name: bucket_force(k),
-        v.ARM_FORCE.name: arm_force(k),
+        v.BUCKET_FORCE.name: bucket_force(k, v.MAIN_PRESSURE.value, v.BUCKET_BORE.value),
+        v.ARM_FORCE.name: arm_force(k, v.MAIN_PRESSURE.value, v.ARM_BORE.value),
     }
-
-
-def bucket_force(k: Linkage) -> float:
-    """Largest force at the tooth points from the bucket cylinder alone at the relief pressure, kN: by virtual work,
-    over the stroke (ISO 6015 without its limits of stability)."""
-    push = v.MAIN_PRESSURE.value * math.pi / 4 * v.BUCKET_BORE.value**2 / 1000.0
-    step = 0.5
-    lengths = np.arange(BUCKET_MIN + step, BUCKET_MAX - step, 1.0)
-    turns = [(k.four_bar(c - step)[0] - k.four_bar(c + step)[0]) % (2 * math.pi) for c in map(float, lengths)]
-    return push / (min(turns) * k.tip)
-
-
-def arm_force(k: Linkage) -> float:
-    """Largest force at the tooth points from the arm cylinder alone at the relief pressure, kN; the bucket curled to
-    where its own force is largest."""
-    push = v.MAIN_PRESSURE.value * math.pi / 4 * v.ARM_BORE.value**2 / 1000.0
-    lengths = np.arange(BUCKET_MIN + 0.5, BUCKET_MAX - 0.5, 1.0)
-    turns = [(k.four_bar(c - 0.5)[0] - k.four_bar(c + 0.5)[0]) % (2 * math.pi) for c in map(float, lengths)]
-    best = k.four_bar(float(lengths[int(np.argmin(turns))]))[0]
-    radius = float(np.hypot(*(vec(ARM, 0.0) + rot(best, vec(k.tip, 0.0)))))
-    return push * float(np.hypot(*k.P)) / radius
 
 
 def drawn(root: Assembly, k: Linkage, pose: Pose) -> dict[str, float]:

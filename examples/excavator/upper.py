@@ -118,15 +118,17 @@ def draw_frame(k: Linkage, hardware: Assembly) -> Assembly:
     return tree
 
 
+def casting(r: float, half: float, front: float, low: float, high: float) -> TopoDS_Shape:
+    """A block whose rear is an arc about the swing axis."""
+    back = -math.sqrt(r * r - half * half)
+    arc = ((back, half), (-r, 0.0), (back, -half))
+    corners = [(back, -half), (front, -half), (front, half), (back, half)]
+    return prism([arc, *itertools.pairwise(corners)], "xy", low, high)
+
+
 def draw_counterweight(hardware: Assembly) -> Assembly:
     """A casting whose rear is an arc about the swing axis; hollow so far that it has the published mass."""
     tree = Assembly("COUNTERWEIGHT ASSY")
-
-    def casting(r: float, half: float, front: float, low: float, high: float) -> TopoDS_Shape:
-        back = -math.sqrt(r * r - half * half)
-        arc = ((back, half), (-r, 0.0), (back, -half))
-        corners = [(back, -half), (front, -half), (front, half), (back, half)]
-        return prism([arc, *itertools.pairwise(corners)], "xy", low, high)
 
     radius, half = v.TAIL_RADIUS.value, HALF - 15
     block = casting(radius, half, FRONT_OF_CWT, SKIRT, HOOD)
