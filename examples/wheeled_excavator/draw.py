@@ -34,7 +34,7 @@ _SIZES: dict[str, tuple[float, ...]] = {
     "boom": (142, 90, 80, 110, 150, 40, 90, 105),
     "arm": (154, 90, 88, 124, 160, 45, 95, 110),
     "bucket": (134, 80, 76, 110, 145, 40, 85, 100),
-    "stabilizer": (104, 40, 34, 46, 58, 20, 42, 46),
+    "stabilizer": (96, 40, 34, 46, 58, 20, 42, 46),
 }
 """Outside, pin, eye, eye's width, base, cap, piston, gland; millimetres."""
 BUCKET = Sizes(v.BUCKET_WIDTH.value, v.BUCKET_CAPACITY.value, v.WALL_DEPTH.value, 0.92)

@@ -22,7 +22,7 @@ STROKES = Strokes(
     (v.ARM_CLOSED.value, v.ARM_CLOSED.value + v.ARM_STROKE.value),
     (v.BUCKET_CLOSED.value, v.BUCKET_CLOSED.value + v.BUCKET_STROKE.value),
 )
-NOSE_AT = 2_628.105
+NOSE_AT = 2_626.14
 """x of the bucket pin with boom, arm and bucket cylinder open: what the published minimum swing radius takes of the
 drawn arm and bucket."""
 
