@@ -10,7 +10,7 @@ import numpy as np
 from scipy.optimize import brentq, fsolve
 
 from drawing.digger import Ends, Linkage, Sketch, Strokes, fitted
-from drawing.planar import Point, rot, vec
+from drawing.planar import Point, direction, rot, vec
 from drawing.stabiliser import FOOT, HEEL, Stabiliser
 from drawing.steer_axle import SteerAxle
 
@@ -41,12 +41,15 @@ SKETCH = Sketch(
 
 
 def ranges(a: Point, tip: float, e: Ends) -> dict[str, float]:
-    """The working ranges by the values' names, millimetres (see the excavator's `ranges`): the arm hangs straight down,
-    or as far out as it goes where that is not so far, when the tooth points are deepest."""
+    """The working ranges by the values' names, millimetres (see the excavator's `ranges`): the arm hangs straight down
+    when the tooth points are deepest, or as far out as it goes where that is not so far; the bucket is in line with A
+    when they are farthest, or open where it does not open so far."""
     boom, arm = vec(BOOM, 0.0), vec(ARM, 0.0)
     low = a + rot(e.low, boom)
     deep = low + rot(min(-math.pi / 2, e.low + e.out), arm)
-    far = float(np.hypot(*(boom + rot(e.out, arm)))) + tip
+    pin = boom + rot(e.out, arm)
+    opened = min(e.open, direction(pin) - e.out)
+    far = float(np.hypot(*(pin + rot(e.out + opened, vec(tip, 0.0)))))
     out = a + rot(e.high, boom + rot(e.out, arm))
     return {
         v.DIGGING_DEPTH.name: tip - float(deep[1]),

@@ -13,14 +13,13 @@ from drawing.sheet_print import (
     MARGIN,
     SECOND,
     Cell,
-    Line,
+    cells,
     cylinder_table,
     grid,
+    grouped,
     heading,
     length,
-    lines,
     opening,
-    short,
     value_lines,
     write_pages,
 )
@@ -35,43 +34,46 @@ SOURCE = (
 )
 
 
+def _shown(value: Value) -> tuple[str, ...]:
+    own = {"rpm": f"{value.value:.1f} rpm", "deg": f"{grouped(value.value)}°", "m3": f"{value.value} m³"}
+    return (own[value.unit],) if value.unit in own else cells(value)
+
+
 def _first(c: Canvas) -> None:
-    x, top = MARGIN, opening(c, TITLE, SOURCE)
-    y = heading(c, x, top, "Engine and weight", HALF)
-    y = value_lines(c, x, y, (("Gross power, ISO 14396", v.GROSS_POWER), ("Operating weight", v.OPERATING_WEIGHT)))
-    y = heading(c, x, y, "Hydraulic system", HALF)
-    rows = (("Main pump flow", v.PUMP_FLOW), ("Main relief pressure", v.MAIN_PRESSURE))
-    y = value_lines(c, x, y, (*rows, ("Swing relief pressure", v.SWING_PRESSURE)))
-    y = heading(c, x, y, "Swing system", HALF)
-    y = lines(c, x, y, (Line("Swing speed", (f"{v.SWING_SPEED.value:.1f} rpm",)),), HALF) + 8
-    y = value_lines(c, x, y, (("Swing torque", v.SWING_TORQUE),))
-    y = heading(c, x, y, "Transmission and steering", HALF)
-    y = value_lines(c, x, y, (
-        ("Maximum travel speed", v.TRAVEL_SPEED), ("Travel speed, low", v.LOW_SPEED),
-        ("Maximum drawbar pull", v.DRAWBAR_PULL), ("Turning radius outside tyres", v.TURNING_RADIUS),
-    )) + 8  # fmt: skip
-    steered = Line("Steering angle", (f"{v.STEER_ANGLE.value:.1f}°",), ours=True)
-    lines(c, x, y, (steered, Line("Tyres", ("18R19.5",))), HALF)
-    x = SECOND
-    y = heading(c, x, top, "Dimensions", HALF)
-    y = value_lines(c, x, y, (
-        ("Height over cab", v.CAB_HEIGHT), ("Overall width over tyres", v.OVERALL_WIDTH),
-        ("Width of upper structure", v.UPPER_WIDTH), ("Tail swing radius", v.TAIL_RADIUS),
-        ("Counterweight clearance", v.COUNTERWEIGHT_CLEARANCE), ("Ground clearance", v.GROUND_CLEARANCE),
-        ("Slew centre to front axle", v.SLEW_TO_FRONT), ("Wheelbase", v.WHEELBASE),
-        ("Tyre diameter", v.TYRE_DIAMETER), ("Stabiliser spread", v.SPREAD),
-        ("Stabiliser lift height", v.STABILISER_LIFT),
-    ))  # fmt: skip
-    y = heading(c, x, y, "Working equipment", HALF)
-    rows = (("Boom length", v.BOOM_LENGTH), ("Arm length", v.ARM_LENGTH), ("Bucket weight", v.BUCKET_WEIGHT))
-    y = value_lines(c, x, y, rows) + 8
-    more = (
-        Line("Bucket width", short(v.BUCKET_WIDTH.value)),
-        Line("Bucket capacity", (f"{v.BUCKET_CAPACITY.value} m³",)),
-        Line("Bucket rotation", (f"{v.BUCKET_ROTATION.value:.0f}°",)),
-    )
-    y = lines(c, x, y, more, HALF) + 8
-    value_lines(c, x, y, (("Bucket digging force", v.BUCKET_FORCE), ("Arm digging force", v.ARM_FORCE)))
+    top = opening(c, TITLE, SOURCE)
+    left = {
+        "Engine and weight": (("Gross power, ISO 14396", v.GROSS_POWER), ("Operating weight", v.OPERATING_WEIGHT)),
+        "Hydraulic system": (
+            ("Main pump flow", v.PUMP_FLOW), ("Main relief pressure", v.MAIN_PRESSURE),
+            ("Swing relief pressure", v.SWING_PRESSURE),
+        ),
+        "Drives and steering": (
+            ("Maximum travel speed", v.TRAVEL_SPEED), ("Travel speed, low", v.LOW_SPEED),
+            ("Maximum drawbar pull", v.DRAWBAR_PULL), ("Swing speed", v.SWING_SPEED),
+            ("Swing torque", v.SWING_TORQUE), ("Steering angle", v.STEER_ANGLE),
+            ("Turning radius outside tyres", v.TURNING_RADIUS),
+        ),
+    }  # fmt: skip
+    right = {
+        "Dimensions": (
+            ("Height over cab", v.CAB_HEIGHT), ("Overall width over tyres", v.OVERALL_WIDTH),
+            ("Width of upper structure", v.UPPER_WIDTH), ("Tail swing radius", v.TAIL_RADIUS),
+            ("Counterweight clearance", v.COUNTERWEIGHT_CLEARANCE), ("Ground clearance", v.GROUND_CLEARANCE),
+            ("Slew centre to front axle", v.SLEW_TO_FRONT), ("Wheelbase", v.WHEELBASE),
+            ("Tyre diameter", v.TYRE_DIAMETER), ("Stabiliser spread", v.SPREAD),
+            ("Stabiliser lift height", v.STABILISER_LIFT),
+        ),
+        "Working equipment": (
+            ("Boom length", v.BOOM_LENGTH), ("Arm length", v.ARM_LENGTH), ("Bucket width", v.BUCKET_WIDTH),
+            ("Bucket capacity", v.BUCKET_CAPACITY), ("Bucket weight", v.BUCKET_WEIGHT),
+            ("Bucket rotation", v.BUCKET_ROTATION), ("Bucket digging force", v.BUCKET_FORCE),
+            ("Arm digging force", v.ARM_FORCE),
+        ),
+    }  # fmt: skip
+    for x, column in ((MARGIN, left), (SECOND, right)):
+        y = top
+        for words, rows in column.items():
+            y = value_lines(c, x, heading(c, x, y, words, HALF), rows, _shown)
 
 
 def _second(c: Canvas) -> None:
