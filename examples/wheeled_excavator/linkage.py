@@ -95,7 +95,7 @@ def solve_axle() -> SteerAxle:
             "front_axle", FRONT_X, AXLE_Z, king=king, arm=(FRONT_X - back, king - inset),
             end=(FRONT_X - back - 25.0, 330.0), ram_z=AXLE_Z - 75.0, tie_z=AXLE_Z - 118.0, wheel_z=RADIUS,
             spindle=(2 * SPINDLE, TREAD / 2 - king - 20.0), bore=v.STEER_BORE.value, rod=v.STEER_ROD.value,
-            stroke=v.STEER_STROKE.value, on="undercarriage",
+            stroke=v.STEER_STROKE.value, outside=122.0, on="undercarriage",
         )  # fmt: skip
 
     def outside(king: float) -> float:

@@ -75,7 +75,7 @@ BUCKET_STROKE = Value("Bucket cylinder stroke", 1_030, "mm")
 STABILISER_BORE = Value("Stabiliser cylinder bore", 80, "mm")
 STABILISER_ROD = Value("Stabiliser cylinder rod diameter", 45, "mm")
 STABILISER_STROKE = Value("Stabiliser cylinder stroke", 270, "mm")
-STEER_BORE = Value("Steering cylinder bore", 80, "mm")
+STEER_BORE = Value("Steering cylinder bore", 100, "mm")
 STEER_ROD = Value("Steering cylinder rod diameter", 45, "mm")
 STEER_STROKE = Value("Steering cylinder stroke", 220, "mm")
 
