@@ -22,7 +22,7 @@ STROKES = Strokes(
     (v.ARM_CLOSED.value, v.ARM_CLOSED.value + v.ARM_STROKE.value),
     (v.BUCKET_CLOSED.value, v.BUCKET_CLOSED.value + v.BUCKET_STROKE.value),
 )
-NOSE_AT = 2_626.14
+NOSE_AT = 2_562.115
 """x of the bucket pin with boom, arm and bucket cylinder open: what the published minimum swing radius takes of the
 drawn arm and bucket."""
 
@@ -30,7 +30,7 @@ SKETCH = Sketch(
     {
         "A.x": (150, 40), "A.z": (1855, 20), "C.x": (560, 30), "C.z": (1410, 15), "D.x": (2250, 60), "D.z": (560, 15),
         "M.x": (2575, 80), "M.z": (815, 12), "P.x": (-690, 30), "P.z": (380, 30), "E.x": (400, 50), "E.z": (590, 20),
-        "G.x": (ARM - 435, 25), "G.z": (45, 20), "tipping": (580, 40), "link": (540, 40), "J.r": (415, 25),
+        "G.x": (ARM - 435, 25), "G.z": (45, 20), "tipping": (650, 40), "link": (580, 40), "J.r": (415, 25),
         "J.a": (math.radians(95), 0.12), "tip": (1380, 25), "low": (math.radians(-48), 0.1),
         "high": (math.radians(73), 0.05), "out": (math.radians(-37), 0.04), "crowd": (math.radians(-148), 0.04),
         "open": (math.radians(17), 0.06), "curl": (math.radians(-166), 0.06),
