@@ -39,8 +39,8 @@ def test_it_drives_on_all_wheels_and_turns_about_one_point(file: Path) -> None:
     """Its tyres, far from their kingpins, hold the steering back from its lock by some degrees."""
     result = drive(file, engine="mujoco")
     in_engines.assert_straight(result)
-    assert result.lock is not None and math.radians(36.0) < result.lock < math.radians(42.0)
-    assert result.turning_radius == pytest.approx(result.geometry_radius, rel=0.01)
+    assert result.lock is not None and math.radians(34.0) < result.lock < math.radians(42.0)
+    assert result.turning_radius == pytest.approx(result.geometry_radius, rel=0.02)
     assert list(driving_findings(result)) == []
 
 
