@@ -23,6 +23,7 @@ from yellowiron.report.html.viewer import NOT_BUNDLED
 
 ROOT = Path(__file__).resolve().parent.parent
 LONGEST = (
+    "test_simulate_wheeled_excavator", "test_wheeled_excavator_example",
     "test_studio_review", "test_simulate_telehandler", "test_simulate_backhoe_loader", "test_real_machines",
     "test_simulate_excavator", "test_simulate_articulated_dump_truck", "test_simulate_roller", "test_studio_session",
     "test_telehandler_example", "test_align_merged", "test_backhoe_loader_example", "test_mini_excavator_example",

@@ -11,7 +11,7 @@ from OCP.TopoDS import TopoDS_Shape
 from drawing.hardware import fit_pin
 from drawing.product import BLACK, GLASS, GREY, YELLOW, Assembly, Colour, Part, add_pair
 from drawing.solids import X, Y, Z, bored, box, cut, fuse, moved, plate, rod, sheet_box, shift, turned
-from drawing.stabiliser import PIN_LEG, PIN_LEG_CYL
+from drawing.stabiliser import PIN_LEG, PIN_LEG_CYL, fit_stabiliser_pins
 from drawing.steer_axle import PIN_OSCILLATION
 
 from . import values as v
@@ -107,12 +107,7 @@ def draw_rear(hardware: Assembly) -> Assembly:
     for letter, sign in (("l", 1.0), ("r", -1.0)):
         at = (bx, sign * bz2, SWING_Z - 68)
         fit_pin(hardware, at, PIN_SWING, 136, BODY, f"swing_cylinder_barrel_{letter}_pin", upright=True)
-        for role, y, z, size in (
-            (f"stabilizer_{letter}_pin", ly, lz, PIN_LEG),
-            (f"stabilizer_cylinder_barrel_{letter}_pin", by, bz, PIN_LEG_CYL),
-        ):
-            bar = Part(f"PIN D{size:g}", rod((0, 0, 0), X, size / 2, last - first + 56))
-            hardware.add(bar, BODY, role, shift(first - 28, sign * float(y), float(z)))
+    fit_stabiliser_pins(leg, (first - 28, last + 28), BODY, hardware)
     return tree
 
 

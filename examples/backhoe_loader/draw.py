@@ -17,8 +17,8 @@ from drawing.files import run, write_example
 from drawing.hardware import placed
 from drawing.planar import Point, direction
 from drawing.product import Assembly, Use
-from drawing.solids import Vector, frame
-from drawing.stabiliser import RAISED, draw_stabilisers
+from drawing.solids import Vector
+from drawing.stabiliser import RAISED, draw_stabilisers, put_stabiliser_cylinders
 from drawing.steer_axle import draw_steer_axle
 from drawing.wheels import WheelSizes, draw_wheel, put_wheels, wheel_places
 
@@ -135,13 +135,7 @@ def draw_cylinders(d: Drawn) -> Assembly:
         "swing",
         *((SWING_X + float(p[0]), float(p[1]), SWING_Z) for p in (swing.barrel, swing.rod(0.0))),
     )
-    leg, x = solve_stabiliser(), sum(LEG_X) / 2
-    (by, bz), (qy, qz) = leg.barrel, leg.rod(d.leg)
-    for letter, sign in (("l", 1.0), ("r", -1.0)):
-        along = (0.0, sign * float(qy - by), float(qz - bz))
-        # Drawn with its pins along y, which lie along the machine here.
-        at = frame((x, sign * float(by), float(bz)), along, (0.0, -along[2], along[1]))
-        put("stabilizer", at, f"_{letter}")
+    put_stabiliser_cylinders(tree, made["stabilizer"], solve_stabiliser(), d.leg, sum(LEG_X) / 2)
     return tree
 
 

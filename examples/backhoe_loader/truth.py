@@ -11,7 +11,8 @@ import numpy as np
 from drawing.cylinders import Cylinder
 from drawing.planar import Point, rot
 from drawing.product import Assembly, extent, occurrences
-from drawing.stabiliser import FOOT, HEEL, LEG, LOWERED, RAISED
+from drawing.stabiliser import HEEL, LOWERED, RAISED, leg_joints
+from drawing.steer_axle import steering_joints
 from drawing.truth import CadFrame, Joints, document, twin_slides, value_rows
 from drawing.wheels import wheel_places
 
@@ -47,10 +48,10 @@ TWINS = ("loader_lift", "swing", "stabilizer")
 def joints(d: Drawn) -> dict[str, dict[str, Any]]:
     """Every joint of the machine."""
     found, k, hoe, pose = Joints(FRAME), d.shovel, d.hoe, d.pose
-    axle, swing, leg = solve_axle(), solve_swing(), solve_stabiliser()
+    swing = solve_swing()
     places = wheel_places({"front": (FRONT_X, v.FRONT_TREAD.value), "rear": (0.0, v.REAR_TREAD.value)}, 0.0)
-    found.pivot("chassis", "front_axle", (axle.x, 0, axle.z), X)
-    found.slide("front_axle", "steering_piston_rod", (axle.end[0], 0, axle.ram_z), Y)
+    steering_joints(found, solve_axle())
+    leg_joints(found, solve_stabiliser(), d.leg, sum(LEG_X) / 2, "chassis")
 
     def at(p: Point, y: float = 0.0) -> tuple[float, float, float]:
         return float(p[0]), y, float(p[1])
@@ -60,9 +61,6 @@ def joints(d: Drawn) -> dict[str, dict[str, Any]]:
 
     for letter, sign in (("l", 1.0), ("r", -1.0)):
         side, knuckle = f"_{letter}", f"knuckle_{letter}"
-        found.pivot("front_axle", knuckle, (axle.x, sign * axle.king, axle.z), Z)
-        found.pivot(knuckle, f"tie_rod_{letter}", (axle.arm[0], sign * axle.arm[1], axle.ram_z), Z)
-        found.pivot("steering_piston_rod", f"tie_rod_{letter}", (axle.end[0], sign * axle.end[1], axle.ram_z), Z)
         for end, carrier, radius in (("front", knuckle, FRONT_RADIUS), ("rear", "chassis", REAR_RADIUS)):
             wheel = f"{end}_wheel_{letter}"
             found.pivot(carrier, wheel, (*places[wheel][:2], radius), name=f"{wheel}_joint")
@@ -70,10 +68,6 @@ def joints(d: Drawn) -> dict[str, dict[str, Any]]:
         found.cylinder("loader_lift", side, ("chassis", "loader_arm"), at(k.C, y), at(d.arms.D, y), Y)
         p, q = ((SWING_X + float(c[0]), sign * float(c[1]), SWING_Z) for c in (swing.barrel, swing.rod(0.0)))
         found.cylinder("swing", side, ("chassis", "swing_post"), p, q, Z)
-        x = sum(LEG_X) / 2
-        pin, p, q = ((x, sign * float(c[0]), float(c[1])) for c in (leg.pin, leg.barrel, leg.rod(d.leg)))
-        found.pivot("chassis", f"stabilizer_{letter}", pin, X)
-        found.cylinder("stabilizer", side, ("chassis", f"stabilizer_{letter}"), p, q, X)
     found.pivot("chassis", "loader_arm", at(k.A))
     found.pivot("loader_arm", "loader_lever", at(d.arms.G))
     found.cylinder("loader_bucket", "", ("chassis", "loader_lever"), at(k.E), at(d.arms.F), Y)
@@ -105,7 +99,6 @@ def measured() -> dict[str, float]:
     k, hoe, leg, swing = solve_loader(), solve_backhoe(), solve_stabiliser(), solve_swing()
     high, ground = k.pose(LIFTS[1], TILTS[0]), k.pose(k.lift_for_hinge(DEPTH), TILTS[1])
     dump = k.pose(LIFTS[1], k.tilt_for_angle(LIFTS[1], math.radians(-45.0), TILTS))
-    foot = leg.pin[1] - FOOT
     return ranges(hoe.A, hoe.tip, hoe.ends()) | {
         v.HINGE_HEIGHT.name: float(high.B[1]),
         v.DUMP_ANGLE.name: -math.degrees(high.bucket_angle),
@@ -113,7 +106,7 @@ def measured() -> dict[str, float]:
         v.DUMP_HEIGHT.name: float(dump.T[1]),
         v.DUMP_REACH.name: float(dump.T[0]) - FRONT_X - FRONT_RADIUS,
         v.LOADER_DEPTH.name: -float(k.pose(LIFTS[0], TILTS[0]).B[1] + k.T[1]),
-        v.SPREAD.name: 2.0 * (float(leg.pin[0]) + math.sqrt(LEG**2 - foot**2) + FOOT),
+        v.SPREAD.name: leg.widest,
         v.FEET_CLEARANCE.name: float(leg.pin[1]) - HEEL,
         v.STABILISER_STROKE.name: leg.length(LOWERED) - leg.length(RAISED),
         v.SWING_STROKE.name: swing.length(HALF_ARC) - swing.length(-HALF_ARC),

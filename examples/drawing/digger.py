@@ -154,6 +154,20 @@ class Linkage:
         """B with the boom cylinders closed."""
         return self.A + rot(self.boom_angle(self.strokes.boom[0]), vec(self.boom, 0.0))
 
+    def wall_depth(self, floor: float) -> float:
+        """Greatest depth of the tooth points, the floor upright, for an angle between K -> T reversed and the floor's
+        underside (radians): arm and bucket as far out as that takes, and the boom raised where the arm's stroke ends.
+        """
+        e, down = self.ends(), -math.pi / 2
+        arm = max(down, down + floor - e.open)
+        boom = max(e.low, arm - e.out)
+        pin = float(self.A[1]) + self.boom * math.sin(boom) + self.arm * math.sin(arm)
+        return -pin - self.tip * math.sin(down + floor)
+
+    def floor_angle(self, depth: float) -> float:
+        """Angle between K -> T reversed and the floor's underside, radians: what a vertical wall depth takes."""
+        return float(brentq(lambda floor: self.wall_depth(floor) - depth, 0.2, 1.2, xtol=1e-14))
+
     def ends(self) -> Ends:
         """Angles at the ends of the strokes."""
         return Ends(

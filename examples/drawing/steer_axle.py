@@ -14,6 +14,7 @@ from .cylinders import Ram, draw_ram
 from .hardware import CLEARANCE, fit_pin, pin
 from .product import CHROME, GREY, Assembly, Part, Use
 from .solids import X, Y, Z, bored, box, fuse, mirrored, plate, rod, shift, turn
+from .truth import Joints
 
 PIN_OSCILLATION, PIN_KING, PIN_TIE = 60.0, 50.0, 30.0
 
@@ -126,3 +127,16 @@ def draw_steer_axle(a: SteerAxle, hardware: Assembly) -> Assembly:
         bolt = pin(PIN_OSCILLATION, 290)
         hardware.add(bolt, a.on, f"{body}_pin", shift(x - 145, 0, z).Multiplied(turn(Z, -90.0)))
     return tree
+
+
+def steering_joints(found: Joints, a: SteerAxle) -> None:
+    """The joints of the axle on what carries it, and of all that steers; those of the wheels are the caller's."""
+    piston = f"{a.prefix}steering_piston_rod"
+    if not a.fast:
+        found.pivot(a.on, a.body, (a.x, 0.0, a.z), X)
+    found.slide(a.body, piston, (a.end[0], 0.0, a.ram_z), Y)
+    for letter, sign in (("l", 1.0), ("r", -1.0)):
+        knuckle, tie = (f"{a.prefix}{what}_{letter}" for what in ("knuckle", "tie_rod"))
+        found.pivot(a.body, knuckle, (a.x, sign * a.king, a.z), Z)
+        found.pivot(knuckle, tie, (a.arm[0], sign * a.arm[1], a.ram_z), Z)
+        found.pivot(piston, tie, (a.end[0], sign * a.end[1], a.ram_z), Z)

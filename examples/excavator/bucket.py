@@ -5,12 +5,10 @@ The bucket's frame: origin at the bucket pin, x towards the tooth points, z towa
 
 from __future__ import annotations
 
-import functools
 import math
 from dataclasses import dataclass
 
 from OCP.TopoDS import TopoDS_Shape
-from scipy.optimize import brentq
 
 from drawing.digger import Linkage, Pose
 from drawing.hardware import CLEARANCE, bush, fit_pin, placed
@@ -20,7 +18,6 @@ from drawing.solids import Y, bored, box, cut, moved, outline, plate, ring, rod,
 
 from . import values as v
 from .equipment import PIN_G, PIN_H, PIN_J, PIN_K, between, pair
-from .linkage import ARM
 
 SKIN, SIDE, LIP = 20.0, 20.0, 40.0
 """Thickness of the wrapper, the sides and the cutting edge."""
@@ -32,17 +29,23 @@ EAR = (166.0, 206.0)
 """Lateral place of the ears that take both pins."""
 
 
-def wall_depth(k: Linkage, floor: float) -> float:
-    """Depth of the tooth points with the boom down and the floor upright, for an angle between K -> T reversed and the
-    floor's underside (radians): the arm hangs straight down, or as far out as the open bucket needs."""
-    out = max(0.0, floor - k.ends().open)
-    return ARM * math.cos(out) + k.tip * math.cos(floor) - float(k.lowest_arm_pin()[1])
+@dataclass(frozen=True, slots=True)
+class Sizes:
+    """What a bucket is drawn to: its width, its capacity (m3), the vertical wall depth that its floor's angle is for;
+    `scale` of its side view."""
+
+    width: float
+    capacity: float
+    wall_depth: float
+    scale: float = 1.0
 
 
-@functools.cache
+OWN = Sizes(v.BUCKET_WIDTH.value, v.BUCKET_CAPACITY.value, v.WALL_DEPTH.value)
+
+
 def floor_angle(k: Linkage) -> float:
     """Angle between K -> T reversed and the floor's underside, radians: what the vertical wall depth takes."""
-    return float(brentq(lambda floor: wall_depth(k, floor) - v.WALL_DEPTH.value, 0.2, 1.2, xtol=1e-14))
+    return k.floor_angle(OWN.wall_depth)
 
 
 @dataclass(frozen=True, slots=True)
@@ -56,6 +59,7 @@ class Profile:
     heel: tuple[float, float]
     back: tuple[float, float]
     top: tuple[float, float]
+    scale: float = 1.0
 
     def floor(self, s: float, up: float = 0.0) -> tuple[float, float]:
         """A point `s` back from the tooth points along the floor, `up` inside its underside."""
@@ -66,7 +70,8 @@ class Profile:
 
     def outside(self, lip: float) -> list[tuple[float, float, float]]:
         """Outline of the side, from `lip` back along the floor around to the upper lip."""
-        return [(*self.floor(lip), 0.0), (*self.heel, HEEL), (*self.back, BACK), (*self.top, 0.0)]
+        heel, back = HEEL * self.scale, BACK * self.scale
+        return [(*self.floor(lip), 0.0), (*self.heel, heel), (*self.back, back), (*self.top, 0.0)]
 
     def inside(self, lip: float) -> list[tuple[float, float, float]]:
         """The same less the wrapper, open at the mouth."""
@@ -75,7 +80,8 @@ class Profile:
         d = (down[0] / n, down[1] / n)
         lip_in = self.floor(lip - 200.0, SKIN)
         end = (self.top[0] + 60 * d[0] + 2.2 * SKIN * -d[1], self.top[1] + 60 * d[1] + 2.2 * SKIN * d[0])
-        return [(*lip_in, 0.0), (*self.heel, HEEL - SKIN), (*self.back, BACK - SKIN), (*end, 0.0)]
+        heel, back = HEEL * self.scale - SKIN, BACK * self.scale - SKIN
+        return [(*lip_in, 0.0), (*self.heel, heel), (*self.back, back), (*end, 0.0)]
 
     def seat(self) -> list[tuple[float, float, float]]:
         """Corners inside the wrapper's thickness, from the upper lip up the back: where the ears stand."""
@@ -86,12 +92,13 @@ class Profile:
         return [(*low, 0.0), (*end, 0.0), (*middle, 0.0)]
 
 
-def profile(k: Linkage) -> Profile:
+def profile(k: Linkage, own: Sizes = OWN) -> Profile:
     """The bucket's side view for a linkage."""
-    phi = floor_angle(k)
+    phi, s = k.floor_angle(own.wall_depth), own.scale
     along, normal = (-math.cos(phi), math.sin(phi)), (math.sin(phi), math.cos(phi))
     base = Profile(k.tip, along, normal, (0, 0), (0, 0), (0, 0))
-    return Profile(k.tip, along, normal, base.floor(930.0, HEEL), (345.0, 520.0), (118.0, 118.0))
+    heel = base.floor(930.0 * s, HEEL * s)
+    return Profile(k.tip, along, normal, heel, (345.0 * s, 520.0 * s), (118.0 * s, 118.0 * s), s)
 
 
 def struck(k: Linkage) -> float:
@@ -110,14 +117,14 @@ def struck(k: Linkage) -> float:
     return area * (v.BUCKET_WIDTH.value - 2 * SIDE) * 1e-9
 
 
-def draw_bucket(k: Linkage, pose: Pose, hardware: Assembly) -> Assembly:
+def draw_bucket(k: Linkage, pose: Pose, hardware: Assembly, own: Sizes = OWN) -> Assembly:
     """Wrapper, sides, cutting edge, five teeth on adapters, side cutters, ears with the link's pin."""
     at = placed((pose.K[0], 0, pose.K[1]), pose.bucket_angle)
-    tree = Assembly(f"BUCKET ASSY {v.BUCKET_CAPACITY.value:g}M3")
+    tree = Assembly(f"BUCKET ASSY {own.capacity:g}M3")
     weld = Assembly("BUCKET WELDMENT")
     tree.add(weld)
-    p = profile(k)
-    half = v.BUCKET_WIDTH.value / 2
+    p = profile(k, own)
+    half = own.width / 2
     inner = half - SIDE
 
     def put(name: str, shape: TopoDS_Shape, colour: Colour = YELLOW, into: Assembly = weld) -> None:
@@ -140,7 +147,7 @@ def draw_bucket(k: Linkage, pose: Pose, hardware: Assembly) -> Assembly:
         y = (i - 2) * (half - 62) / 2
         tree.add(adapter, "bucket", at=at.Multiplied(shift(0, y, 0)))
         tree.add(part, "bucket", at=at.Multiplied(shift(0, y, 0)))
-    put("TORQUE TUBE", rod((175, -inner, 200), Y, 42, 2 * inner))
+    put("TORQUE TUBE", rod((175 * p.scale, -inner, 200 * p.scale), Y, 42, 2 * inner))
     jx, jz = k.J
     shape = plate([(0.0, 0.0, 98.0), *p.seat(), (jx, jz, 88.0)], "xz", *EAR)
     shape = bored(shape, Y, ((0, 0, 0), PIN_K / 2 + CLEARANCE), ((jx, 0, jz), PIN_J / 2))

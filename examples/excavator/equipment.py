@@ -17,7 +17,7 @@ from drawing.hardware import bush, fit_pin, placed
 from drawing.product import BLACK, GREY, YELLOW, Assembly, Colour, Part
 from drawing.solids import Y, bored, box, cut, mirrored, moved, outline, pipe, plate, ring, rod, shift, turn
 
-from .linkage import ARM, BOOM
+from .linkage import BOOM
 
 PIN_A = PIN_B = 100.0
 PIN_C = PIN_D = PIN_K = PIN_M = PIN_P = 90.0
@@ -67,46 +67,49 @@ def crossing(
 
 
 # ---- boom --------
-BOOM_OUTLINE: Outline = [(0, 0, 140), (2780, -1300, -1640), (BOOM, 0, 118), (2540, 300, 560)]
-"""Foot, hollow underside, tip, crown."""
-SLOT = BOOM - 480.0
-"""From here on the boom's tip is a fork."""
+
+
+def _boom_outline(boom: float, s: float) -> Outline:
+    """Foot, hollow underside, tip, crown of a boom of a length, `s` times that of the excavator."""
+    return [(0, 0, 140), (2780 * s, -1300 * s, -1640 * s), (boom, 0, 118), (2540 * s, 300 * s, 560 * s)]
 
 
 def draw_boom(k: Linkage, pose: Pose, hardware: Assembly) -> Assembly:
     """The boom with its bosses, the arm cylinder's lugs, pipes and a lamp."""
     at = placed((k.A[0], 0, k.A[1]), pose.boom_angle)
     turned = -math.degrees(pose.boom_angle)
+    boom, s = k.boom, k.boom / BOOM
+    side, slot = _boom_outline(boom, s), boom - 480.0  # from there on the tip is a fork
     tree = Assembly("BOOM ASSY")
     (dx, dz), (mx, mz) = k.D, k.M
     body = "boom"
     weld = Assembly("BOOM WELDMENT")
     tree.add(weld)
-    holes = (((0.0, 0.0, 0.0), 60.0), ((dx, 0.0, dz), 60.0), ((BOOM, 0.0, 0.0), PIN_B / 2))
-    web = bored(plate(BOOM_OUTLINE, "xz", BOOM_Y - WEB, BOOM_Y), Y, *holes)
+    holes = (((0.0, 0.0, 0.0), 60.0), ((dx, 0.0, dz), 60.0), ((boom, 0.0, 0.0), PIN_B / 2))
+    web = bored(plate(side, "xz", BOOM_Y - WEB, BOOM_Y), Y, *holes)
     pair(weld, "BOOM WEB", web, at, body)
     inside = BOOM_Y - WEB
     ends = (_polygon([(-400, -400), (125, -400), (125, 400), (-400, 400)], 400.0),
-            _polygon([(SLOT, -600), (6200, -600), (6200, 600), (SLOT, 600)], 400.0))  # fmt: skip
-    lower = [(-500, -900), (6300, -900), (6300, 0), (BOOM, 0), (2600, 600), (0, 0), (-500, 0)]
-    upper = [(-500, 0), (0, 0), (2600, 600), (BOOM, 0), (6300, 0), (6300, 1600), (-500, 1600)]
+            _polygon([(slot, -600), (boom + 500, -600), (boom + 500, 600), (slot, 600)], 400.0))  # fmt: skip
+    lower = [(-500, -900), (6300, -900), (6300, 0), (boom, 0), (2600 * s, 600 * s), (0, 0), (-500, 0)]
+    upper = [(-500, 0), (0, 0), (2600 * s, 600 * s), (boom, 0), (6300, 0), (6300, 1600), (-500, 1600)]
     for name, away in (("BOOM TOP FLANGE", lower), ("BOOM BOTTOM FLANGE", upper)):
-        flange = skin(BOOM_OUTLINE, inside, WEB, *ends, _polygon([(float(a), float(b)) for a, b in away], 400.0))
+        flange = skin(side, inside, WEB, *ends, _polygon([(float(a), float(b)) for a, b in away], 400.0))
         weld.add(Part(name, moved(flange, at), YELLOW), body)
-    middle = plate(smaller(BOOM_OUTLINE, WEB), "xz", -inside, inside)
-    for x in (1250.0, 3500.0, SLOT - 14.0):
+    middle = plate(smaller(side, WEB), "xz", -inside, inside)
+    for x in (1250.0 * s, 3500.0 * s, slot - 14.0):
         keep = cut(middle, box(-900, x, -400, 400, -2000, 2000), box(x + 14, 7000, -400, 400, -2000, 2000))
         weld.add(Part("BOOM DIAPHRAGM", moved(keep, at), YELLOW), body)
     foot = ring((0, -222, 0), Y, 125, 60, 444)
     weld.add(Part("BOOM FOOT BOSS", moved(foot, at), YELLOW), body)
     pair(weld, "BOOM CYL BOSS", ring((dx, 60, dz), Y, 105, PIN_D / 2, 232), at, body)
-    pair(weld, "BOOM TIP BOSS", ring((BOOM, 166, 0), Y, 112, PIN_B / 2, 70), at, body)
+    pair(weld, "BOOM TIP BOSS", ring((boom, 166, 0), Y, 112, PIN_B / 2, 70), at, body)
     lug = plate([(mx, mz, 100), (mx - 330, mz - 200, 0), (mx + 98, mz - 190, 0)], "xz", 68, 108)
     pair(weld, "ARM CYL LUG", bored(lug, Y, ((mx, 0, mz), PIN_M / 2)), at, body)
     for y in (-222.0, 112.0):
         tree.add(bush(120, PIN_A, 110), body, at=at.Multiplied(shift(0, y, 0)))
     # steel pipes along the crown, and the clamps that hold them
-    above = outline(smaller(BOOM_OUTLINE, -38.0))
+    above = outline(smaller(side, -38.0))
     (tip, bend_out), (bend_in, foot_end) = above[5], above[7]
     crown = crossing(tip, bend_out, bend_in, foot_end)
     first, last = between(crown, foot_end, 0.62), between(crown, tip, 0.72)
@@ -120,9 +123,11 @@ def draw_boom(k: Linkage, pose: Pose, hardware: Assembly) -> Assembly:
             slope = turn(Y, -math.degrees(math.atan((end[1] - crown[1]) / (end[0] - crown[0]))))
             for y in (-160.0, 152.0):
                 tree.add(clamp, body, at=at.Multiplied(shift(x, y, z)).Multiplied(slope))
-    lamp = cut(box(1500, 1640, 216, 330, 520, 660), box(1600, 1641, 230, 316, 535, 645))
+    x, z = 1500 * s, 520 * s
+    lamp = cut(box(x, x + 140, 216, 330, z, z + 140), box(x + 100, x + 141, 230, 316, z + 15, z + 125))
     tree.add(Part("BOOM LAMP", moved(lamp, at), BLACK), body)
-    tree.add(Part("BOOM LAMP LENS", moved(box(1600, 1630, 230, 316, 535, 645), at), (0.93, 0.93, 0.85)), body)
+    lens = box(x + 100, x + 130, 230, 316, z + 15, z + 125)
+    tree.add(Part("BOOM LAMP LENS", moved(lens, at), (0.93, 0.93, 0.85)), body)
     for letter, sign in (("l", 1.0), ("r", -1.0)):
         y = 60.0 if sign > 0 else -420.0
         fit_pin(hardware, (pose.D[0], y, pose.D[1]), PIN_D, 360, body, f"boom_piston_rod_{letter}_pin")
@@ -146,7 +151,7 @@ def draw_boom(k: Linkage, pose: Pose, hardware: Assembly) -> Assembly:
 # ---- arm --------
 def arm_outline(k: Linkage) -> Outline:
     """Tail, underside of the hinge, nose, top under the bucket cylinder."""
-    return [(k.P[0], k.P[1], 105), (0, 0, 168), (ARM, 0, 98), (300, 235, 180)]
+    return [(k.P[0], k.P[1], 105), (0, 0, 168), (k.arm, 0, 98), (300, 235, 180)]
 
 
 def draw_arm(k: Linkage, pose: Pose, hardware: Assembly) -> Assembly:
@@ -158,8 +163,8 @@ def draw_arm(k: Linkage, pose: Pose, hardware: Assembly) -> Assembly:
     tree.add(weld)
     body = "arm"
     (px, pz), (ex, ez), (gx, gz) = k.P, k.E, k.G
-    side = arm_outline(k)
-    holes = (((px, 0.0, pz), 60.0), ((0.0, 0.0, 0.0), 60.0), ((gx, 0.0, gz), 50.0), ((ARM, 0.0, 0.0), 55.0))
+    side, arm = arm_outline(k), k.arm
+    holes = (((px, 0.0, pz), 60.0), ((0.0, 0.0, 0.0), 60.0), ((gx, 0.0, gz), 50.0), ((arm, 0.0, 0.0), 55.0))
     web = bored(plate(side, "xz", ARM_Y - WEB, ARM_Y), Y, *holes)
     pair(weld, "ARM WEB", web, at, body)
     inside = ARM_Y - WEB
@@ -167,17 +172,17 @@ def draw_arm(k: Linkage, pose: Pose, hardware: Assembly) -> Assembly:
         [(px - 400, -900), (-120, -900), (-120, 0), (px + 190, pz - 40), (px + 190, pz + 400), (px - 400, pz + 400)],
         400,
     )
-    nose = _polygon([(ARM - 110, -400), (ARM + 400, -400), (ARM + 400, 400), (ARM - 110, 400)], 400.0)
+    nose = _polygon([(arm - 110, -400), (arm + 400, -400), (arm + 400, 400), (arm - 110, 400)], 400.0)
     hinge = rod((0, -400, 0), Y, 138, 800)
-    below = [(px - 400, -900.0), (ARM + 400, -900.0), (ARM + 400, 0.0), (400.0, 60.0), (px, pz), (px - 400, pz)]
-    above = [(px - 400, pz), (px, pz), (400.0, 60.0), (ARM + 400, 0.0), (ARM + 400, 900.0), (px - 400, 900.0)]
+    below = [(px - 400, -900.0), (arm + 400, -900.0), (arm + 400, 0.0), (400.0, 60.0), (px, pz), (px - 400, pz)]
+    above = [(px - 400, pz), (px, pz), (400.0, 60.0), (arm + 400, 0.0), (arm + 400, 900.0), (px - 400, 900.0)]
     for name, away in (("ARM TOP FLANGE", below), ("ARM BOTTOM FLANGE", above)):
         flange = skin(side, inside, 14.0, tail, nose, hinge, _polygon(away, 400.0))
         weld.add(Part(name, moved(flange, at), YELLOW), body)
     for x, z, r, bore, half, name in (
         (0.0, 0.0, 140.0, 60.0, 160.0, "ARM HINGE BOSS"),
         (gx, gz, 72.0, PIN_G / 2, 168.0, "TIPPING LINK BOSS"),
-        (ARM, 0.0, 96.0, PIN_K / 2, 160.0, "ARM NOSE BOSS"),
+        (arm, 0.0, 96.0, PIN_K / 2, 160.0, "ARM NOSE BOSS"),
     ):
         weld.add(Part(name, moved(ring((x, -half, z), Y, r, bore, 2 * half), at), YELLOW), body)
     pair(weld, "ARM TAIL BOSS", ring((px, 72, pz), Y, 98, PIN_P / 2, 98), at, body)

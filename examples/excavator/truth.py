@@ -13,21 +13,19 @@ from scipy.optimize import brentq
 
 from drawing.cylinders import Cylinder
 from drawing.digger import Linkage, Pose, wrapped
-from drawing.hardware import placed
-from drawing.planar import Point, direction, rot, vec
+from drawing.digger_truth import arm_force, bucket_force, moves
+from drawing.planar import Point
 from drawing.product import Assembly, Occurrence, extent, farthest, occurrences
 from drawing.truth import CadFrame, value_rows
 
 from . import values as v
-from .bucket import floor_angle, wall_depth
+from .bucket import floor_angle
 from .equipment import CYLINDER_Y
 from .linkage import (
-    ARM,
     ARM_MAX,
     BOOM_MAX,
     BOOM_MIN,
     BUCKET_MAX,
-    BUCKET_MIN,
     LEVEL,
     ranges,
 )
@@ -148,59 +146,10 @@ def measured(k: Linkage) -> dict[str, float]:
 
     return got | {
         v.LEVEL_DEPTH.name: float(brentq(miss, 6000.0, v.DIGGING_DEPTH.value - 1.0, xtol=1e-9)),
-        v.WALL_DEPTH.name: wall_depth(k, floor_angle(k)),
-        v.BUCKET_FORCE.name: bucket_force(k),
-        v.ARM_FORCE.name: arm_force(k),
+        v.WALL_DEPTH.name: k.wall_depth(floor_angle(k)),
+        v.BUCKET_FORCE.name: bucket_force(k, v.MAIN_PRESSURE.value, v.BUCKET_BORE.value),
+        v.ARM_FORCE.name: arm_force(k, v.MAIN_PRESSURE.value, v.ARM_BORE.value),
     }
-
-
-def bucket_force(k: Linkage) -> float:
-    """Largest force at the tooth points from the bucket cylinder alone at the relief pressure, kN: by virtual work,
-    over the stroke (ISO 6015 without its limits of stability)."""
-    push = v.MAIN_PRESSURE.value * math.pi / 4 * v.BUCKET_BORE.value**2 / 1000.0
-    step = 0.5
-    lengths = np.arange(BUCKET_MIN + step, BUCKET_MAX - step, 1.0)
-    turns = [(k.four_bar(c - step)[0] - k.four_bar(c + step)[0]) % (2 * math.pi) for c in map(float, lengths)]
-    return push / (min(turns) * k.tip)
-
-
-def arm_force(k: Linkage) -> float:
-    """Largest force at the tooth points from the arm cylinder alone at the relief pressure, kN; the bucket curled to
-    where its own force is largest."""
-    push = v.MAIN_PRESSURE.value * math.pi / 4 * v.ARM_BORE.value**2 / 1000.0
-    lengths = np.arange(BUCKET_MIN + 0.5, BUCKET_MAX - 0.5, 1.0)
-    turns = [(k.four_bar(c - 0.5)[0] - k.four_bar(c + 0.5)[0]) % (2 * math.pi) for c in map(float, lengths)]
-    best = k.four_bar(float(lengths[int(np.argmin(turns))]))[0]
-    radius = float(np.hypot(*(vec(ARM, 0.0) + rot(best, vec(k.tip, 0.0)))))
-    return push * float(np.hypot(*k.P)) / radius
-
-
-def _moves(k: Linkage, start: Pose, pose: Pose) -> dict[str, gp_Trsf]:
-    """Where each moving body goes from the drawn pose, machine frame."""
-
-    def frames(p: Pose) -> dict[str, gp_Trsf]:
-        def at(pin: Point, angle: float) -> gp_Trsf:
-            return placed((pin[0], 0.0, pin[1]), angle)
-
-        lift, crowd, curl = direction(p.D - k.C), direction(p.P - p.M), direction(p.H - p.E)
-        out = {
-            "boom": at(k.A, p.boom_angle),
-            "arm": at(p.B, p.arm_angle),
-            "bucket": at(p.K, p.bucket_angle),
-            "tipping_link": at(p.G, direction(p.H - p.G)),
-            "bucket_link": at(p.H, direction(p.J - p.H)),
-            "arm_cylinder_barrel": at(p.M, crowd),
-            "arm_piston_rod": at(p.P, crowd),
-            "bucket_cylinder_barrel": at(p.E, curl),
-            "bucket_piston_rod": at(p.H, curl),
-        }
-        for letter in "lr":
-            out[f"boom_cylinder_barrel_{letter}"] = at(k.C, lift)
-            out[f"boom_piston_rod_{letter}"] = at(p.D, lift)
-        return out
-
-    before, after = frames(start), frames(pose)
-    return {body: after[body].Multiplied(before[body].Inverted()) for body in before}
 
 
 def drawn(root: Assembly, k: Linkage, pose: Pose) -> dict[str, float]:
@@ -221,7 +170,7 @@ def drawn(root: Assembly, k: Linkage, pose: Pose) -> dict[str, float]:
         return np.array([np.min([b[0] for b in parts], axis=0), np.max([b[1] for b in parts], axis=0)])
 
     def folded(boom: float) -> dict[str, gp_Trsf]:
-        return _moves(k, pose, k.pose(boom, ARM_MAX, BUCKET_MAX))
+        return moves(k, pose, k.pose(boom, ARM_MAX, BUCKET_MAX), ("_l", "_r"))
 
     down = float(brentq(lambda c: bounds(hanging, folded(c))[0, 2], BOOM_MIN + 200, BOOM_MAX - 200, xtol=1e-3))
     resting = bounds(of(*front), folded(down))

@@ -55,6 +55,27 @@ def _pair(tree: Assembly, name: str, shape: TopoDS_Shape, colour: Colour = YELLO
     tree.add(Part(f"{name} RH", mirrored(shape), colour), BODY)
 
 
+def draw_towers(tree: Assembly, k: Linkage, tower: list[tuple[float, float, float]], deck: float) -> None:
+    """The plates with an outline that hold boom and boom cylinders, and the cylinders' lugs on the deck."""
+    (ax, az), (cx, cz) = k.A, k.C
+    side = bored(plate(tower, "xz", 228, 268), Y, ((ax, 0, az), PIN_A / 2), ((cx, 0, cz), PIN_C / 2))
+    _pair(tree, "TOWER PL", side)
+    lug = plate([(cx, cz, 100), (cx - 230, deck, 0), (cx + 25, deck, 0)], "xz", 411, 437)
+    _pair(tree, "BOOM CYL BOSS", ring((cx, 268, cz), Y, 78, PIN_C / 2, 25))
+    _pair(tree, "BOOM CYL LUG", bored(lug, Y, ((cx, 0, cz), PIN_C / 2)))
+
+
+def fit_boom_pins(k: Linkage, hardware: Assembly) -> None:
+    """The pins of boom and boom cylinders in the towers."""
+    (ax, az), (cx, cz) = k.A, k.C
+    cap = Part(f"PIN CAP {PIN_C:g}", rod((0, 0, 0), Y, PIN_C / 2 + 10, 6), GREY)
+    for letter, sign in (("l", 1.0), ("r", -1.0)):
+        start, role = (228.0, -440.0)[sign < 0], f"boom_cylinder_barrel_{letter}_pin"
+        fit_pin(hardware, (cx, start, cz), PIN_C, 212, BODY, role)
+        hardware.add(cap, BODY, at=shift(cx, 440.0 if sign > 0 else -446.0, cz))
+    fit_pin(hardware, (ax, -280, az), PIN_A, 560, BODY, "boom_pin", keep=(1.0, -1.0), turned=30)
+
+
 def draw_frame(k: Linkage, hardware: Assembly) -> Assembly:
     """Bearing race, base plate, towers for boom and boom cylinders, decks either side, and their pins."""
     tree = Assembly("REVOLVING FRAME")
@@ -71,11 +92,7 @@ def draw_frame(k: Linkage, hardware: Assembly) -> Assembly:
     deck = FLOOR + 40
     tower = [(cx, cz, 112.0), (ax, az, 150.0), (-260.0, 1560.0, 0.0), (-900.0, 1400.0, 0.0), (-2355.0, 1330.0, 0.0)]
     tower += [(-2355.0, deck, 0.0), (700.0, deck, 0.0)]
-    side = bored(plate(tower, "xz", 228, 268), Y, ((ax, 0, az), PIN_A / 2), ((cx, 0, cz), PIN_C / 2))
-    _pair(tree, "TOWER PL", side)
-    lug = plate([(cx, cz, 100), (cx - 230, deck, 0), (cx + 25, deck, 0)], "xz", 411, 437)
-    _pair(tree, "BOOM CYL BOSS", ring((cx, 268, cz), Y, 78, PIN_C / 2, 25))
-    _pair(tree, "BOOM CYL LUG", bored(lug, Y, ((cx, 0, cz), PIN_C / 2)))
+    draw_towers(tree, k, tower, deck)
     _pair(tree, "TOWER RIB", box(-290, -262, 268, 560, deck, 1400))
     tree.add(Part("TOWER BULKHEAD", box(-290, -262, -228, 228, deck, 1500), YELLOW), BODY)
     tree.add(Part("NOSE X-MEMBER", box(330, 360, -228, 228, deck, 1180), YELLOW), BODY)
@@ -85,12 +102,7 @@ def draw_frame(k: Linkage, hardware: Assembly) -> Assembly:
     for x0 in (-2100.0, -1200.0, -200.0):
         _pair(tree, "OUTRIGGER", box(x0, x0 + 24, 268, 440, SKIRT, DECK))
     _pair(tree, "OUTRIGGER FRT", box(300, 324, 437, 440, SKIRT, DECK))
-    cap = Part(f"PIN CAP {PIN_C:g}", rod((0, 0, 0), Y, PIN_C / 2 + 10, 6), GREY)
-    for letter, sign in (("l", 1.0), ("r", -1.0)):
-        start, role = (228.0, -440.0)[sign < 0], f"boom_cylinder_barrel_{letter}_pin"
-        fit_pin(hardware, (cx, start, cz), PIN_C, 212, BODY, role)
-        hardware.add(cap, BODY, at=shift(cx, 440.0 if sign > 0 else -446.0, cz))
-    fit_pin(hardware, (ax, -280, az), PIN_A, 560, BODY, "boom_pin", keep=(1.0, -1.0), turned=30)
+    fit_boom_pins(k, hardware)
     big = bolt(24, 60)
     r = (inner + outer) / 2
     for i in range(8):
@@ -106,15 +118,17 @@ def draw_frame(k: Linkage, hardware: Assembly) -> Assembly:
     return tree
 
 
+def casting(r: float, half: float, front: float, low: float, high: float) -> TopoDS_Shape:
+    """A block whose rear is an arc about the swing axis."""
+    back = -math.sqrt(r * r - half * half)
+    arc = ((back, half), (-r, 0.0), (back, -half))
+    corners = [(back, -half), (front, -half), (front, half), (back, half)]
+    return prism([arc, *itertools.pairwise(corners)], "xy", low, high)
+
+
 def draw_counterweight(hardware: Assembly) -> Assembly:
     """A casting whose rear is an arc about the swing axis; hollow so far that it has the published mass."""
     tree = Assembly("COUNTERWEIGHT ASSY")
-
-    def casting(r: float, half: float, front: float, low: float, high: float) -> TopoDS_Shape:
-        back = -math.sqrt(r * r - half * half)
-        arc = ((back, half), (-r, 0.0), (back, -half))
-        corners = [(back, -half), (front, -half), (front, half), (back, half)]
-        return prism([arc, *itertools.pairwise(corners)], "xy", low, high)
 
     radius, half = v.TAIL_RADIUS.value, HALF - 15
     block = casting(radius, half, FRONT_OF_CWT, SKIRT, HOOD)

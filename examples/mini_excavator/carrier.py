@@ -4,7 +4,6 @@ millimetres."""
 from __future__ import annotations
 
 import functools
-import itertools
 import math
 
 from OCP.TopoDS import TopoDS_Shape
@@ -14,8 +13,9 @@ from drawing.digger import Linkage
 from drawing.hardware import CLEARANCE, fit_pin, placed
 from drawing.planar import rot, vec
 from drawing.product import BLACK, GREY, STEEL, YELLOW, Assembly, Colour, Part
-from drawing.solids import Y, Z, bored, box, cut, fuse, mirrored, moved, plate, prism, ring, rod, sheet_box, shift, turn
+from drawing.solids import Y, Z, bored, box, cut, fuse, mirrored, moved, plate, ring, rod, sheet_box, shift, turn
 from excavator.undercarriage import hollow
+from excavator.upper import casting
 
 from . import values as v
 from .equipment import PIN
@@ -236,12 +236,6 @@ def draw_upper(swing: Swing, hardware: Assembly) -> Assembly:
     fit_pin(
         hardware, (float(bx), float(by), SWING_Z - 66), SWING_PIN, 120, body, "swing_cylinder_barrel_pin", upright=True
     )
-
-    def casting(r: float, wide: float, front: float, low: float, high: float) -> TopoDS_Shape:
-        back = -math.sqrt(r * r - wide * wide)
-        arc = ((back, wide), (-r, 0.0), (back, -wide))
-        corners = [(back, -wide), (front, -wide), (front, wide), (back, wide)]
-        return prism([arc, *itertools.pairwise(corners)], "xy", low, high)
 
     put(
         "COUNTERWEIGHT",

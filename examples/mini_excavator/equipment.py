@@ -7,11 +7,9 @@ link 42; tipping links 44-52, bucket ears 44-56; boom 50, the bracket's plates 5
 
 from __future__ import annotations
 
-import functools
 import math
 
 from OCP.TopoDS import TopoDS_Shape
-from scipy.optimize import brentq
 
 from drawing.digger import Linkage, Pose
 from drawing.hardware import CLEARANCE, bush, fit_pin, placed
@@ -136,19 +134,9 @@ def draw_links(k: Linkage, pose: Pose, hardware: Assembly) -> Assembly:
 SKIN, TOOTH, HEEL, BACK = 6.0, 52.0, 100.0, 82.0
 
 
-def wall_depth(k: Linkage, floor: float) -> float:
-    """Greatest depth of the tooth points, the floor upright, for an angle between K -> T reversed and the floor's
-    underside (radians): arm and bucket as far out as that takes, and the boom raised where the arm's stroke ends."""
-    e, down = k.ends(), -math.pi / 2
-    arm = max(down, down + floor - e.open)
-    boom = max(e.low, arm - e.out)
-    return -float(k.A[1]) - BOOM * math.sin(boom) - ARM * math.sin(arm) - k.tip * math.sin(down + floor)
-
-
-@functools.cache
 def floor_angle(k: Linkage) -> float:
     """Angle between K -> T reversed and the floor's underside, radians: what the vertical wall depth takes."""
-    return float(brentq(lambda floor: wall_depth(k, floor) - v.WALL_DEPTH.value, 0.2, 1.2, xtol=1e-14))
+    return k.floor_angle(v.WALL_DEPTH.value)
 
 
 def draw_bucket(k: Linkage, pose: Pose, hardware: Assembly) -> Assembly:

@@ -7,18 +7,17 @@ import math
 from typing import Any
 
 import numpy as np
-from OCP.gp import gp_Trsf
 
 from drawing.cylinders import Cylinder
 from drawing.digger import Linkage, Pose
-from drawing.hardware import placed
+from drawing.digger_truth import moves
 from drawing.planar import Point, direction
 from drawing.product import Assembly, extent, farthest, occurrences
 from drawing.truth import CadFrame, value_rows
 
 from . import values as v
 from .carrier import FLOOR, HALF, SIDE_Y, axle, rollers, track_pins
-from .equipment import floor_angle, wall_depth
+from .equipment import floor_angle
 from .linkage import BLADE_BARREL, BLADE_PIN, PIVOT, STROKES, SWING_Z, ranges, solve_blade, solve_swing
 
 Y, Z = (0.0, 1.0, 0.0), (0.0, 0.0, 1.0)
@@ -124,39 +123,12 @@ def measured(k: Linkage) -> dict[str, float]:
     low, high = (turned(swing.closed + share * v.SWING_STROKE.value) for share in (0.0, 1.0))
     ends = [blade.pins(blade.angle(blade.closed + share * v.BLADE_STROKE.value))[1][1] for share in (0.0, 1.0)]
     return ranges(k.A, k.tip, k.ends()) | {
-        v.WALL_DEPTH.name: wall_depth(k, floor_angle(k)),
+        v.WALL_DEPTH.name: k.wall_depth(floor_angle(k)),
         v.SWING_RIGHT.name: 360.0 - low,
         v.SWING_LEFT.name: high,
         v.BLADE_LIFT.name: float(ends[0]),
         v.BLADE_DIG.name: -float(ends[1]),
     }
-
-
-def _folded(k: Linkage, start: Pose) -> dict[str, gp_Trsf]:
-    """Where the digger's bodies go from the drawn pose when its three cylinders open."""
-    end = k.pose(STROKES.boom[1], STROKES.arm[1], STROKES.bucket[1])
-
-    def frames(p: Pose) -> dict[str, gp_Trsf]:
-        def at(pin: Point, angle: float) -> gp_Trsf:
-            return placed((pin[0], 0.0, pin[1]), angle)
-
-        lift, crowd, curl = direction(p.D - k.C), direction(p.P - p.M), direction(p.H - p.E)
-        return {
-            "boom": at(k.A, p.boom_angle),
-            "arm": at(p.B, p.arm_angle),
-            "bucket": at(p.K, p.bucket_angle),
-            "tipping_link": at(p.G, direction(p.H - p.G)),
-            "bucket_link": at(p.H, direction(p.J - p.H)),
-            "boom_cylinder_barrel": at(k.C, lift),
-            "boom_piston_rod": at(p.D, lift),
-            "arm_cylinder_barrel": at(p.M, crowd),
-            "arm_piston_rod": at(p.P, crowd),
-            "bucket_cylinder_barrel": at(p.E, curl),
-            "bucket_piston_rod": at(p.H, curl),
-        }
-
-    before, after = frames(start), frames(end)
-    return {body: after[body].Multiplied(before[body].Inverted()) for body in before}
 
 
 def drawn_values(root: Assembly, k: Linkage, pose: Pose) -> dict[str, float]:
@@ -169,10 +141,10 @@ def drawn_values(root: Assembly, k: Linkage, pose: Pose) -> dict[str, float]:
     def named(name: str) -> Any:
         return extent([leaf for leaf in leaves if leaf.part.name.startswith(name)])
 
-    moves = _folded(k, pose)
+    folded = moves(k, pose, k.pose(STROKES.boom[1], STROKES.arm[1], STROKES.bucket[1]))
     shoes, left, upper = of("track_shoe"), of("track_shoe_l"), of("upperstructure")
     return {
-        v.SWING_RADIUS_MIN.name: farthest([leaf for leaf in leaves if leaf.body in moves], moves),
+        v.SWING_RADIUS_MIN.name: farthest([leaf for leaf in leaves if leaf.body in folded], folded),
         v.TAIL_RADIUS.name: farthest([leaf for leaf in leaves if leaf.part.name == "COUNTERWEIGHT"], {}),
         v.CANOPY_HEIGHT.name: float(upper[1, 2]),
         v.UPPER_WIDTH.name: float(np.ptp(upper[:, 1])),

@@ -10,7 +10,7 @@ from __future__ import annotations
 from drawing.hardware import fit_pin
 from drawing.product import BLACK, GLASS, GREY, YELLOW, Assembly, Part, add_pair
 from drawing.solids import X, Y, Z, bored, box, cut, fuse, plate, ring, rod, sheet_box, shift
-from drawing.stabiliser import PIN_LEG, PIN_LEG_CYL
+from drawing.stabiliser import PIN_LEG, PIN_LEG_CYL, fit_stabiliser_pins
 from drawing.steer_axle import PIN_OSCILLATION
 
 from . import values as v
@@ -83,13 +83,7 @@ def draw_front(hardware: Assembly) -> Assembly:
         tree.add(Part(f"STABILISER FRAME PL {name}", shape), BODY)
     for y in (-150.0, 110.0):
         tree.add(Part("STABILISER FRAME SPACER", box(first, last, y, y + 40, 740, 790)), BODY)
-    for letter, sign in (("l", 1.0), ("r", -1.0)):
-        for role, y, z, size in (
-            (f"stabilizer_{letter}_pin", ly, lz, PIN_LEG),
-            (f"stabilizer_cylinder_barrel_{letter}_pin", by, bz, PIN_LEG_CYL),
-        ):
-            bar = Part(f"PIN D{size:g}", rod((0, 0, 0), X, size / 2, last - first + 56))
-            hardware.add(bar, BODY, role, shift(first - 28, sign * float(y), float(z)))
+    fit_stabiliser_pins(leg, (first - 28, last + 28), BODY, hardware)
     qy, qz = (float(c) for c in LEVEL_FROM)
     for name, x in (("RR", FRONT_X - 76), ("FRT", FRONT_X + 52)):
         lug = plate([(qy, qz, 42), (outside, qz + 40, 0), (outside, low, 0), (outside + 60, low, 0)], "yz", x, x + 24)

@@ -11,6 +11,8 @@ import numpy as np
 from drawing.cylinders import Cylinder
 from drawing.planar import Point
 from drawing.product import Assembly, extent, occurrences
+from drawing.stabiliser import leg_joints
+from drawing.steer_axle import steering_joints
 from drawing.truth import CadFrame, Joints, Triple, document, twin_slides, value_rows
 from drawing.wheels import wheel_places
 
@@ -49,18 +51,12 @@ def joints(d: Drawn) -> dict[str, dict[str, Any]]:
     places = wheel_places({"front": (FRONT_X, TREAD), "rear": (0.0, TREAD)}, RADIUS)
     for end in ("front", "rear"):
         axle = solve_axle(end, k.sections)
-        beam, rod = f"{end}_axle", f"{end}_steering_piston_rod"
-        if not axle.fast:
-            found.pivot("chassis", beam, (axle.x, 0, axle.z), X)
-        found.slide(beam, rod, (axle.end[0], 0, axle.ram_z), Y)
+        steering_joints(found, axle)
         if axle.fast:
             found.found[STEERING[end]]["body0"] = "chassis"
-        for letter, sign in (("l", 1.0), ("r", -1.0)):
-            knuckle, tie, wheel = (f"{end}_{what}_{letter}" for what in ("knuckle", "tie_rod", "wheel"))
-            found.pivot(beam, knuckle, (axle.x, sign * axle.king, axle.z), Z)
-            found.pivot(knuckle, tie, (axle.arm[0], sign * axle.arm[1], axle.ram_z), Z)
-            found.pivot(rod, tie, (axle.end[0], sign * axle.end[1], axle.ram_z), Z)
-            found.pivot(knuckle, wheel, places[wheel], name=f"{wheel}_joint")
+        for letter in "lr":
+            wheel = f"{end}_wheel_{letter}"
+            found.pivot(f"{end}_knuckle_{letter}", wheel, places[wheel], name=f"{wheel}_joint")
     found.pivot("chassis", "boom", _high(k.P))
     pins = {name: (_high(p), _high(q)) for name, (p, q) in d.pins.items()}
     found.cylinder("lift", "", ("chassis", "boom"), *pins["lift"], Y)
@@ -74,13 +70,9 @@ def joints(d: Drawn) -> dict[str, dict[str, Any]]:
     found.pivot("inner_boom", "carriage", _high(pose.N))
     found.cylinder("tilt", "", ("inner_boom", "carriage"), *pins["tilt"], Y)
     if k.sections > 2:
-        leg, x = solve_stabiliser(), sum(LEG_X) / 2
         p, q = ((FRONT_X, float(at[0]), float(at[1])) for at in (LEVEL_FROM, LEVEL_ON))
         found.cylinder("levelling", "", ("chassis", "front_axle"), p, q, X)
-        for letter, sign in (("l", 1.0), ("r", -1.0)):
-            pin, p, q = ((x, sign * float(c[0]), float(c[1])) for c in (leg.pin, leg.barrel, leg.rod(d.leg)))
-            found.pivot("chassis", f"stabilizer_{letter}", pin, X)
-            found.cylinder("stabilizer", f"_{letter}", ("chassis", f"stabilizer_{letter}"), p, q, X)
+        leg_joints(found, solve_stabiliser(), d.leg, sum(LEG_X) / 2, "chassis")
     return found.found
 
 

@@ -47,6 +47,9 @@ class Pair:
 FIXED = 5.0
 """The bore of a cylinder without eyes is at least so many times its radius long, and the rod its own: else it may be a
 pin in its boss."""
+THROUGH = 1.7
+"""A rod that comes out at both ends is at least so many times as long as its bore, which is a stroke long: shorter, it
+is a pin, in a boss between whose bushes the bore is wider."""
 
 
 def cylinders_of(solids: tuple[Solid, ...], tolerance: float, *, fixed: bool = False) -> list[DrawnCylinder]:
@@ -114,6 +117,8 @@ def _pair(tube: Solid, bore: Cyl, bar: Solid, shaft: Cyl, eyes: list[Cyl], toler
     ahead = any(max(bore.half, b - reach) < p < far + reach for p in places)
     fixed = through or not (behind and ahead)
     if fixed and (bore.half < 0.5 * FIXED * bore.radius or shaft.half < 0.5 * FIXED * bore.radius):
+        return None
+    if fixed and a < -bore.half - tolerance and shaft.half < THROUGH * bore.half:
         return None
     return Pair(tube, bore, bar, shaft, direction, inside * bore.radius + 1e-3 * (high - low), fixed)
 

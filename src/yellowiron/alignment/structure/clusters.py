@@ -120,8 +120,10 @@ def loose_ends(structure: Structure) -> int:
 
 
 def _touching(groups: Groups, evidence: ContactEvidence) -> list[tuple[int, int]]:
-    """Pairs in different groups whose meshes touch and that lie about no common axis."""
+    """Pairs in different groups whose meshes touch and that lie about no common axis, nor slide in each other."""
     sliding = {(min(n.outer, n.inner), max(n.outer, n.inner)) for n in evidence.nests}
+    halves = (pair for c in evidence.cylinders if c.fixed for pair in itertools.product(c.barrel, c.rod))
+    sliding |= {(min(pair), max(pair)) for pair in halves}
     return [
         (a, b)
         for a, b in evidence.near
