@@ -39,12 +39,18 @@ def test_plates_in_each_other_and_wide_bearings_are_told_apart(seed: int) -> Non
     found_whole(machine, "wheeled_excavator", seed, triangles=False)
 
 
-def test_what_slides_on_each_other_never_joins() -> None:
+@pytest.mark.parametrize("tagged", [False, True])
+def test_what_slides_on_each_other_never_joins(tagged: bool) -> None:
     groups = Groups(4)
-    groups.keep_apart(0, 1)
-    assert groups.join(0, 2) and groups.join(1, 3)
-    assert not groups.may_join(2, 3) and not groups.join(2, 3)
-    assert groups.find(2) != groups.find(3)
+    groups.keep_apart(1, 2)
+    if tagged:
+        groups.tag({0, 1}, ("wheel", 0))
+        groups.tag({2, 3}, ("wheel", 1))
+    else:
+        assert groups.join(1, 0) and groups.join(3, 2)
+    assert not groups.may_join(0, 3) and not groups.may_join(3, 0)
+    assert not groups.join(0, 3)
+    assert groups.find(0) != groups.find(3)
 
 
 @pytest.mark.parametrize("seed", [1300, 1303, 1306])

@@ -24,7 +24,7 @@ class Groups:
         """Makes one labelled group of solids."""
         first, *rest = sorted(members)
         for other in rest:
-            self._sets.join(first, other)
+            self._unite(self.find(first), self.find(other))
         self._label[self.find(first)] = label
 
     def keep_apart(self, i: int, j: int) -> None:
@@ -55,10 +55,16 @@ class Groups:
             return False
         a, b = min(a, b), max(a, b)
         label = self._label.pop(b, None) or self._label.get(a)
-        self._sets.join(a, b)
+        self._unite(a, b)
         if label is not None:
             self._label[a] = label
-        for other in self._apart.pop(b, set()):
-            self._apart[other].discard(b)
-            self.keep_apart(a, other)
         return True
+
+    def _unite(self, a: int, b: int) -> None:
+        """Two groups become one, kept apart from what either was."""
+        a, b = min(a, b), max(a, b)
+        self._sets.join(a, b)
+        apart = self._apart.pop(a, set()) | self._apart.pop(b, set())
+        for other in apart - {a, b}:
+            self._apart[other] -= {a, b}
+            self.keep_apart(a, other)
