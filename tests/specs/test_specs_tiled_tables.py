@@ -137,3 +137,19 @@ def test_two_models_in_one_line_are_not_the_first(tmp_path: Path) -> None:
 )  # fmt: skip
 def test_units_as_brochures_spell_them(printed: str, unit: str) -> None:
     assert is_unit(printed) == unit
+
+
+@pytest.mark.parametrize(
+    ("config", "status"), [("MW110", "ok"), ("MW130", "review"), ("", "ok"), ("standard boom", "ok")]
+)
+def test_what_all_other_models_have_is_not_sure_of_one_whose_rows_are_numbered(
+    tmp_path: Path, config: str, status: str
+) -> None:
+    """The spread's second page has the rows' numbers alone."""
+    c = canvas(tmp_path / "a.pdf")
+    tiles(c, 700, [("Model", "", "MW110 LC", "MW120"), ("Maximum reach", "mm", "9860", "9860")])
+    c.showPage()
+    tiles(c, 700, [("1", "", "MW130", "MW110"), ("2", "", "9990", "9990")])
+    c.save()
+    found = said(extract(ASKED, [tmp_path / "a.pdf"], config=config))
+    assert found["Maximum Reach"] == (status, 9.86)

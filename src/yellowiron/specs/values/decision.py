@@ -14,7 +14,7 @@ from yellowiron.specs.language.quantities import Quantity, same
 from yellowiron.specs.language.vocabulary import tokens
 from yellowiron.specs.layout.statement import Statement, words_beside_numbers
 from yellowiron.specs.pages.strokes import Box
-from yellowiron.specs.values.claims import Claim, configured_by, split_phrases, without_case
+from yellowiron.specs.values.claims import Claim, configured_by, names_model, split_phrases, without_case
 from yellowiron.specs.values.matching import Match
 from yellowiron.specs.values.requested import check_hint, hint_for, usual
 from yellowiron.specs.values.series import called, extremes
@@ -76,7 +76,7 @@ def decide(wanted: Wanted, matches: Sequence[Match], sheets: Sheets, config: str
         doubt = doubt or "its label goes on elsewhere"
     if any(map(_is_measures, top.claim.statement.column)):
         doubt = doubt or "measures of a drawing stand over it"
-    doubt = doubt or counted
+    doubt = doubt or counted or _of_others(group, sheets, config)
     if top.claim.ranged:
         doubt = doubt or "the sheet prints a range"
     value = quantity.si_value
@@ -212,6 +212,22 @@ def _configured(matches: Sequence[Match], sheets: Sheets, config: str) -> list[M
 
 _CHARTED = 4
 """So many values under one head, or under heads on a page, are a chart: one load for each radius."""
+
+
+def _of_others(group: Sequence[Match], sheets: Sheets, config: str) -> str:
+    """Why a value that stands in columns of other models alone is in doubt: the model that is meant has a column of its
+    own elsewhere, of which nothing was read for it (its labels may be on another page)."""
+    heads = {without_case(head) for _, _, column in sheets.columns for head in column}
+    models = [[head for head in configured_by(m.claim) if names_model(head)] for m in group]
+    if not all(models):
+        return ""
+    for phrase in filter(names_model, phrases_of(config)):
+        words = phrase.casefold().split()
+        # The "JS370 LC" is a JS370.
+        own = any(head.casefold().split()[: len(words)] == words for column in models for head in column)
+        if without_case(phrase) in heads and not own:
+            return f"it stands under {models[0][0]}, and {phrase} has a column of its own"
+    return ""
 
 
 def _without_charts(matches: Sequence[Match]) -> list[Match]:
