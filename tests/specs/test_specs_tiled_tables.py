@@ -153,3 +153,26 @@ def test_what_all_other_models_have_is_not_sure_of_one_whose_rows_are_numbered(
     c.save()
     found = said(extract(ASKED, [tmp_path / "a.pdf"], config=config))
     assert found["Maximum Reach"] == (status, 9.86)
+
+
+def test_a_spreads_second_page_has_the_labels_of_its_rows_numbers(tmp_path: Path) -> None:
+    rows = [
+        ("Model", "", "MW110", "MW120"), ("Maximum reach", "mm", "9860", "9990"),
+        ("Maximum digging depth", "mm", "6725", "6850"), ("Net power", "kW", "110", "110"),
+        ("Operating weight", "kg", "22500", "23400"), ("Swing speed", "rpm", "11.5", "11.5"),
+        ("Travel speed", "km/h", "5.5", "5.6"), ("Engine", "", "A", "B"), ("Brakes", "", "drum", "drum"),
+        ("Seat", "", "sprung", "sprung"),
+    ]  # fmt: skip
+    others = ["MW130", "10120", "6990", "121", "26100", "10.5", "5.3", "C", "drum", "sprung"]
+    widths = (20, 150, 30, 70, 70)
+    c = canvas(tmp_path / "a.pdf")
+    tiles(c, 700, [(str(i), *row) for i, row in enumerate(rows, 1)], widths=widths, bold=1)
+    c.showPage()
+    tiles(c, 700, [(str(i), own, own) for i, own in enumerate(others, 1)], widths=(20, 70, 70), bold=1)
+    c.save()
+    found = said(extract(ASKED, [tmp_path / "a.pdf"], config="MW130"))
+    assert found["Maximum Reach"] == ("ok", 10.12)
+    assert found["Maximum Digging Depth"] == ("ok", 6.99)
+    assert found["Operating Weight"] == ("ok", 26100.0)
+    assert found["Net Power"] == ("ok", 121000.0)
+    assert said(extract(ASKED, [tmp_path / "a.pdf"], config="MW120"))["Maximum Reach"] == ("ok", 9.99)
