@@ -7,13 +7,15 @@ from pathlib import Path
 
 import pytest
 from reportlab.lib.colors import HexColor
+from reportlab.pdfbase import pdfmetrics
+from reportlab.pdfbase.cidfonts import UnicodeCIDFont
 from reportlab.pdfgen.canvas import Canvas
 from specs_layouts import canvas, put, template, wanted
 
 from yellowiron.model.specification import Specifications
 from yellowiron.specs import extract
 from yellowiron.specs.language.numbers import read
-from yellowiron.specs.layout.statement import is_unit
+from yellowiron.specs.layout.statement import counting, is_unit
 
 ASKED = template(
     wanted("Maximum Reach", "length"),
@@ -176,3 +178,18 @@ def test_a_spreads_second_page_has_the_labels_of_its_rows_numbers(tmp_path: Path
     assert found["Operating Weight"] == ("ok", 26100.0)
     assert found["Net Power"] == ("ok", 121000.0)
     assert said(extract(ASKED, [tmp_path / "a.pdf"], config="MW120"))["Maximum Reach"] == ("ok", 9.99)
+
+
+def test_digits_in_circles_are_keys_and_no_numbers(tmp_path: Path) -> None:
+    """They are digits to Python, and no integers: a reader failed on them."""
+    keys = [chr(ord("①") + i) for i in range(10)]
+    assert not counting(keys) and counting(["1", "2"])
+    pdfmetrics.registerFont(UnicodeCIDFont("HeiseiKakuGo-W5"))
+    c = canvas(tmp_path / "a.pdf")
+    for i, key in enumerate(keys):
+        c.setFont("HeiseiKakuGo-W5", 9)
+        c.drawString(40, 700 - 14 * i, key)
+        put(c, 60, 700 - 14 * i, "Maximum reach" if i == 0 else f"Height {key}")
+        put(c, 260, 700 - 14 * i, f"{9860 - 100 * i} mm")
+    c.save()
+    assert said(extract(ASKED, [tmp_path / "a.pdf"]))["Maximum Reach"] == ("ok", 9.86)

@@ -16,7 +16,7 @@ _UNDER = 3.0
 
 def with_numbers(statements: Sequence[Statement], page: Page) -> list[Statement]:
     """The statements of a page, those level with a number that counts its rows with that number."""
-    numbers = _counted([w for w in page.words if w.text.isdigit()])
+    numbers = _counted([w for w in page.words if w.text.isdecimal()])
 
     def key(statement: Statement) -> str:
         level = [w for w in numbers if statement.box[1] <= (w.top + w.bottom) / 2 <= statement.box[3]]

@@ -165,7 +165,7 @@ def ascending(keys: Sequence[str]) -> bool:
 
 def counting(keys: Sequence[str]) -> bool:
     """Whether numbers go up one by one: they count the rows beside them."""
-    return all(int(b) - int(a) == 1 for a, b in pairwise(keys)) if all(map(str.isdigit, keys)) else False
+    return all(int(b) - int(a) == 1 for a, b in pairwise(keys)) if all(map(str.isdecimal, keys)) else False
 
 
 @functools.lru_cache(maxsize=65536)

@@ -75,7 +75,7 @@ def _counts(numbers: Sequence[TextPiece], lines: Sequence[TextLine]) -> bool:
     first = {line.pieces[0] for line in lines}
     if all(piece in first for piece in numbers):
         return ascending(texts)
-    counted = [int(t) if t.isdigit() else 0 for t in (text.strip("()[].:") for text in texts)]
+    counted = [int(t) if t.isdecimal() else 0 for t in (text.strip("()[].:") for text in texts)]
     return all(b == a + 1 for a, b in pairwise(counted))
 
 
