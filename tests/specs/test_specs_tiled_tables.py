@@ -193,3 +193,12 @@ def test_digits_in_circles_are_keys_and_no_numbers(tmp_path: Path) -> None:
         put(c, 260, 700 - 14 * i, f"{9860 - 100 * i} mm")
     c.save()
     assert said(extract(ASKED, [tmp_path / "a.pdf"]))["Maximum Reach"] == ("ok", 9.86)
+
+
+def test_a_number_of_thousands_of_digits_is_none_of_a_row(tmp_path: Path) -> None:
+    c = canvas(tmp_path / "a.pdf")
+    c.setFont("Helvetica", 0.05)
+    c.drawString(40, 500, "9" * 5000)
+    tiles(c, 700, ROWS)
+    c.save()
+    assert said(extract(ASKED, [tmp_path / "a.pdf"], config="8008"))["Maximum Reach"] == ("ok", 9.86)

@@ -24,7 +24,7 @@ def main() -> None:
         except BaseException:
             if not stopped:
                 raise
-        # A library that was interrupted while it loads may make of it what it likes, also where Python takes it down.
+        # Not taken down: a library that loads beside it would crash there.
         if stopped:
             terminal.leave(128 + stopped[0])
         terminal.flush()

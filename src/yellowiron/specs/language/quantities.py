@@ -281,7 +281,7 @@ def _value(digits: str, unit: str, style: DecimalStyle) -> tuple[float, int, flo
 
 def _half(digits: str, value: float, decimals: int) -> float:
     """Half a unit of the last printed digit; trailing zeros of a large whole number may be rounding."""
-    if decimals or value < 1000 or value != int(value):
+    if decimals or value < 1000 or not float(value).is_integer():
         return 0.5 * 10.0**-decimals
     bare = str(int(value))
     zeros = len(bare) - len(bare.rstrip("0"))

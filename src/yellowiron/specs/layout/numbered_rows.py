@@ -5,18 +5,20 @@ from __future__ import annotations
 from collections.abc import Mapping, Sequence
 from dataclasses import replace
 
-from yellowiron.specs.layout.statement import Statement, counting
+from yellowiron.specs.layout.statement import Statement
 from yellowiron.specs.pages.words import Page, Word
 
 _MANY = 10
 """Rows that are counted, at least."""
+_DIGITS = 3
+"""Of a row's number, at most."""
 _UNDER = 3.0
 """Points within which the middles of numbers under each other lie."""
 
 
 def with_numbers(statements: Sequence[Statement], page: Page) -> list[Statement]:
     """The statements of a page, those level with a number that counts its rows with that number."""
-    numbers = _counted([w for w in page.words if w.text.isdecimal()])
+    numbers = _counted([w for w in page.words if w.text.isdecimal() and len(w.text) <= _DIGITS])
 
     def key(statement: Statement) -> str:
         level = [w for w in numbers if statement.box[1] <= (w.top + w.bottom) / 2 <= statement.box[3]]
@@ -49,14 +51,17 @@ def _counts(statement: Statement, labels: Mapping[str, Statement]) -> bool:
 def _counted(numbers: Sequence[Word]) -> list[Word]:
     """The longest run of numbers under each other that go up one by one, of those that are long enough."""
     runs: list[list[Word]] = []
+    waiting: dict[int, list[list[Word]]] = {}
     for word in sorted(numbers, key=lambda w: w.top):
-        middle = (word.x0 + word.x1) / 2
-        above = [r for r in runs if abs((r[-1].x0 + r[-1].x1) / 2 - middle) < _UNDER]
-        follows = [r for r in above if counting([r[-1].text, word.text])]
-        if follows:
-            follows[0].append(word)
+        number, middle = int(word.text), (word.x0 + word.x1) / 2
+        above = [r for r in waiting.get(number, []) if abs((r[-1].x0 + r[-1].x1) / 2 - middle) < _UNDER]
+        if above:
+            run = above[0]
+            waiting[number].remove(run)
         else:
-            runs.append([word])
+            runs.append(run := [])
+        run.append(word)
+        waiting.setdefault(number + 1, []).append(run)
     longest = max(runs, key=len, default=[])
     return longest if len(longest) >= _MANY else []
 
