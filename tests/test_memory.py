@@ -18,6 +18,7 @@ from hypothesis import strategies as st
 
 from yellowiron import build, cad, checks, stages, usd
 from yellowiron.cad.dependence import files_of
+from yellowiron.library import load
 from yellowiron.model.geometry import Mesh
 from yellowiron.support.caching import content, disk
 from yellowiron.support.caching.content import content_of
@@ -34,6 +35,7 @@ PLAIN = st.recursive(
 def memory(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> Iterator[Path]:
     monkeypatch.setenv(VARIABLE, str(tmp_path / "cache"))
     monkeypatch.delenv(FRESH, raising=False)
+    load._read.cache_clear()  # a template that this process has read already would not be kept in this folder
     yield tmp_path / "cache"
 
 
