@@ -260,15 +260,15 @@ def _wheels(shape: Shape) -> list[Mesh] | None:
     corners = shape.mesh.points[shape.mesh.triangles]
     points = corners.reshape(-1, 3)
     middle = 0.5 * (points.min(axis=0) + points.max(axis=0))
-    number = None
     # A wheel is as high as it is long: its axis is the direction that the box is square to.
     for k in range(3):
-        width, *square = np.ptp(points, axis=0)[[k, (k + 1) % 3, (k + 2) % 3]]
-        if max(square) > (1.0 + SQUARE) * min(square) or width < min(square):
+        square = np.ptp(points, axis=0)[[(k + 1) % 3, (k + 2) % 3]]
+        if max(square) > (1.0 + SQUARE) * min(square):
             continue
         rim = np.linalg.norm((points - middle)[:, [(k + 1) % 3, (k + 2) % 3]], axis=1)
-        number = shells.solids(shape.mesh) if number is None else number
-        beyond = _mirrored(corners, number, middle, np.eye(3)[k]) if rim.max() < OFF * max(square) else None
+        if rim.max() > OFF * max(square):
+            continue
+        beyond = _mirrored(corners, shells.solids(shape.mesh), middle, np.eye(3)[k])
         if beyond is not None and np.ptp(corners[beyond][..., k]) < FLAT * max(square):
             return [measures.chosen(shape.mesh, np.flatnonzero(rows)) for rows in (~beyond, beyond)]
     return None
