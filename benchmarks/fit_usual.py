@@ -1,34 +1,29 @@
 """Where the bodies of a type usually are, and how large: `usual.json` of its template, from the machines we can draw.
 
-    python benchmarks/fit_usual.py [--first SEED] [--count N] [--only TYPE] [--real [--models DIR]]
+    python benchmarks/fit_usual.py [--first SEED] [--count N] [--only TYPE]
 
-With `--real`, boxes, lengths and shares of bodies that labelled models of strangers have (open ones, as in
-`bench_strangers.py`) are halfway between theirs and those of what we draw. From the repository's root. For every body:
-the box that the middle 90 % of its surface takes (forward, left, up, in machine sizes, as `alignment.fusion.stance`
-finds the frame, its front where it is), over all machines; its length and its share of the surface (medians).
+From the repository's root. For every body: the box that the middle 90 % of its surface takes (forward, left, up, in
+machine sizes, as `alignment.fusion.stance` finds the frame, its front where it is), over all machines; its length and
+its share of the surface (medians and the spread of their logarithms).
 """
 
 from __future__ import annotations
 
 import argparse
 import json
-import os
 import sys
 from pathlib import Path
 
 import numpy as np
 
 ROOT = Path(__file__).resolve().parent.parent
-sys.path[:0] = [str(ROOT / "src"), str(ROOT / "tests"), str(ROOT / "benchmarks")]
+sys.path[:0] = [str(ROOT / "src"), str(ROOT / "tests")]
 
 from kit.machines.defects import drawn  # noqa: E402
 from kit.machines.synthetic import disguise  # noqa: E402
-from strangers_models import Model, models  # noqa: E402
-from yellowiron.alignment.facing import Facing  # noqa: E402
 from yellowiron.alignment.features.solids import size_of, solids_of  # noqa: E402
 from yellowiron.alignment.features.wheels import rolling_of  # noqa: E402
-from yellowiron.alignment.fusion.stance import Stance, on_wheels, stance_of, surface_points  # noqa: E402
-from yellowiron.cad import read_cad  # noqa: E402
+from yellowiron.alignment.fusion.stance import on_wheels, stance_of, surface_points  # noqa: E402
 from yellowiron.library import load_template  # noqa: E402
 from yellowiron.model.template import Template  # noqa: E402
 
@@ -58,24 +53,6 @@ def seen(kind: str, seed: int, template: Template) -> dict[str, tuple[np.ndarray
     for solid in solids:
         role, body = truth[solid.part.id]
         groups.setdefault(body, []).append(solid) if body and not role.endswith("_pin") else None
-    return _looks(groups, solids, stance)
-
-
-def seen_really(model: Model, template: Template) -> dict[str, tuple[np.ndarray, float, float]]:
-    """The same of a labelled model; what is only one of several alternatives is left out."""
-    solids = solids_of(read_cad(model.cad))
-    size, frame = size_of(solids), model.labels["frame"]
-    facing = Facing(tuple(frame["forward"]), tuple(frame["up"]))
-    stance = on_wheels(stance_of(solids, size, (), facing), rolling_of(solids, template, set(), 1e-3 * size))
-    groups: dict[str, list] = {}
-    for solid in solids:
-        label = model.labels["parts"].get(solid.part.id, {})
-        if label.get("body") and not label.get("alternatives") and not label.get("fused"):
-            groups.setdefault(label["body"], []).append(solid)
-    return _looks(groups, solids, stance)
-
-
-def _looks(groups: dict[str, list], solids: tuple, stance: Stance) -> dict[str, tuple[np.ndarray, float, float]]:
     total = sum(s.surface for s in solids)
     found = {}
     for body, group in groups.items():
@@ -85,22 +62,12 @@ def _looks(groups: dict[str, list], solids: tuple, stance: Stance) -> dict[str, 
     return found
 
 
-def _table(whats: list[tuple[np.ndarray, float, float]]) -> np.ndarray:
-    """(4, 3) the low and the high corner of a body's box, its length and its share of the surface."""
-    low, high = np.quantile(np.concatenate([w[0] for w in whats]), [KEPT, 1 - KEPT], axis=0)
-    return np.array([low, high, *(np.full(3, np.median([w[k] for w in whats])) for k in (1, 2))])
-
-
 def main() -> None:
     parser = argparse.ArgumentParser(description=__doc__)
     parser.add_argument("--first", type=int, default=0)
     parser.add_argument("--count", type=int, default=40)
     parser.add_argument("--only", choices=sorted(TYPES), help="a type; without it all of them")
-    parser.add_argument("--real", action="store_true")
-    parser.add_argument("--models", default=os.environ.get("YELLOWIRON_STRANGERS", ""))
     given = parser.parse_args()
-    strangers = [Path(p) for p in given.models.split(":") if p]
-    labelled = [m for m in (models(strangers) if given.real else ()) if m.cad is not None and not m.held_back]
     for name, kinds in TYPES.items():
         if given.only not in (None, name):
             continue
@@ -112,19 +79,15 @@ def main() -> None:
                 for body, what in seen(kind, seed, template).items():
                     own.setdefault(body, []).append(what)
             bodies = own | bodies
-        real: dict[str, list] = {}
-        for model in (m for m in labelled if m.labels.get("template") == name):
-            for body, what in seen_really(model, template).items():
-                real.setdefault(body, []).append(what)
         table = {}
         known = {r.name for r in template.roles if r.rigid and not r.many}
         for body, whats in sorted(b for b in bodies.items() if b[0] in known):
-            # Where one of the few real ones was taken to stand wrongly, it does not count.
-            ours, theirs = _table(whats), [_table([one]) for one in real.get(body, [])]
-            low, high, length, area = np.mean([ours, *([np.median(theirs, axis=0)] if theirs else [])], axis=0)
+            points = np.concatenate([w[0] for w in whats])
+            low, high = np.quantile(points, [KEPT, 1 - KEPT], axis=0)
+            length, area = np.array([w[1] for w in whats]), np.array([w[2] for w in whats])
             table[body] = {
                 "low": low.round(3).tolist(), "high": high.round(3).tolist(),
-                "length": round(float(length[0]), 3), "area": round(float(area[0]), 5),
+                "length": round(float(np.median(length)), 3), "area": round(float(np.median(area)), 5),
             }  # fmt: skip
         rows = ",\n".join(f' "{body}": {json.dumps(row)}' for body, row in table.items())
         path = ROOT / "src/yellowiron/library/data" / name / "usual.json"
