@@ -13,6 +13,7 @@ from yellowiron.kinematics.solver.branches import branch_pivots, branch_sines
 from yellowiron.kinematics.solver.chain import ClosedChain, Component, State
 from yellowiron.kinematics.solver.independence import independent_joints, suspects
 from yellowiron.kinematics.solver.pose_grid import PoseGrid, explore, joint_values
+from yellowiron.kinematics.spatial_hints import locked_hint
 from yellowiron.kinematics.strength import carried, rated_load, strong_enough, weight
 from yellowiron.kinematics.tolerances import PINS_APART
 from yellowiron.model.finding import Finding
@@ -107,9 +108,10 @@ def _mobility(mechanism: Mechanism, work: _Work) -> Mobility:
     freedom = {"fixed": 0, "revolute": 1, "prismatic": 1, "spherical": 3, "distance": 0}
     tree = sum(freedom[joint.type] for joint in mechanism.joints if not joint.cut)
     grubler = tree - sum(_PER_FREEDOM[joint.type] for joint in mechanism.joints if joint.cut)
-    grubler -= sum(joint.follows is not None for joint in mechanism.joints)
+    grubler -= sum(joint.follows is not None for joint in mechanism.joints) + len(work.chain.spins)
     held = [name for name in work.chain.idle if work.joints[name].held]
-    mobility = Mobility(work.chain.degrees_of_freedom - len(held), len(independent_joints(mechanism)), grubler)
+    expected = sum(freedom[work.joints[name].type] for name in independent_joints(mechanism))
+    mobility = Mobility(work.chain.degrees_of_freedom - len(held), expected, grubler)
     if mobility.computed != mobility.expected:
         more = mobility.computed > mobility.expected
         work.find(
@@ -120,7 +122,7 @@ def _mobility(mechanism: Mechanism, work: _Work) -> Mobility:
             f"{mobility.expected}",
             f"Nothing holds: {', '.join(n for n in work.chain.idle if n not in held) or 'a body'}."
             if more
-            else suspects(mechanism) or "A pivot is missing: a loop is locked.",
+            else suspects(mechanism) or locked_hint(mechanism),
         )
     return mobility
 

@@ -19,7 +19,8 @@ def branch_pivots(mechanism: Mechanism) -> dict[str, Pivots]:
 
     The two links far–near and near–closing make the dyad that closes the loop: on a cylinder's loop barrel pivot, rod
     pivot and structural pivot. Its corner at `near` is straight at the loop's dead point, and changes its sign where
-    the loop flips to the other branch. A loop without such a triangle is absent.
+    the loop flips to the other branch. A loop without such a triangle is absent. Of a loop with balls the triangle is
+    looked at along a pivot of its own, else square to where it is drawn (`_normal`).
     """
     by_name = {joint.name: joint for joint in mechanism.joints}
     used: set[frozenset[str]] = set()
@@ -49,13 +50,29 @@ def branch_sines(chain: ClosedChain, pivots: Pivots, rotations: Floats, origins:
         return np.asarray(rotations[:, index] @ local + origins[:, index], dtype=np.float64)
 
     far, near, closing = (joints[name] for name in pivots)
-    normal = rotations[:, chain.body_index(near.body0)] @ np.array(near.axis, dtype=np.float64)
+    carrier, drawn = _normal(chain, far, near, closing)
+    normal = rotations[:, chain.body_index(carrier)] @ drawn
     one, two = at(far) - at(near), at(closing) - at(near)
     one -= np.sum(one * normal, axis=1, keepdims=True) * normal
     two -= np.sum(two * normal, axis=1, keepdims=True) * normal
     lengths = np.linalg.norm(one, axis=1) * np.linalg.norm(two, axis=1)
     area = np.sum(np.cross(one, two) * normal, axis=1)
     return np.divide(area, lengths, out=np.zeros_like(area), where=lengths > 1e-9)
+
+
+def _normal(chain: ClosedChain, far: Joint, near: Joint, closing: Joint) -> tuple[str, Floats]:
+    """The direction across a triangle of pivots, as drawn, and the body that carries it: the axis of a pivot among
+    them, the nearest first; of three balls the normal of the drawn triangle, on a body that does not spin idly."""
+    for pivot in (near, closing, far):
+        if pivot.type == "revolute":
+            return pivot.body0, np.array(pivot.axis, dtype=np.float64)
+    idle = {body for spin in chain.spins for body in spin.bodies}
+    bodies = [body for joint in (far, closing, near) for body in (joint.body0, joint.body1)]
+    corner = np.array(near.anchor)
+    normal = np.cross(np.array(far.anchor) - corner, np.array(closing.anchor) - corner)
+    length = float(np.linalg.norm(normal))
+    carrier = next((body for body in bodies if body not in idle), near.body0)
+    return carrier, normal / length if length > 0.0 else np.array([0.0, 0.0, 1.0])
 
 
 def _cylinder_triangle(mechanism: Mechanism, loop: Loop, joints: Mapping[str, Joint]) -> Pivots | None:
