@@ -7,6 +7,7 @@ from collections.abc import Mapping, Sequence
 from dataclasses import dataclass
 
 import numpy as np
+from drawing.ball import turned
 
 from yellowiron.mechanism.joints.tree import Link, LinkKind, span_tree
 from yellowiron.model.mechanism import Actuator, ActuatorJoint, Body, Cylinder, Drive, Joint, Mechanism
@@ -107,34 +108,6 @@ def drawbar_machine(nose: np.ndarray, rams: Sequence[Ram]) -> Mechanism:
 
 
 # ---- by other means --------------------------------------------------------------------------------------------------
-def turned(
-    links: Sequence[tuple[np.ndarray, np.ndarray]], ball: np.ndarray, lengths: np.ndarray, start: np.ndarray
-) -> np.ndarray:
-    """The rotation (3, 3) of a body on a ball at which three links, from fixed points to its own (as drawn), have these
-    lengths: Newton on the nine entries of the matrix, with the six conditions of a rotation among the equations."""
-    feet = np.array([a for a, _ in links]) - ball
-    arms = np.array([b for _, b in links]) - ball
-    reach = (feet**2).sum(axis=1) + (arms**2).sum(axis=1)
-    matrix = start.copy()
-    for _ in range(40):
-        gaps = reach - 2.0 * np.einsum("ni,ij,nj->n", feet, matrix, arms) - lengths**2
-        rows = -2.0 * np.einsum("ni,nj->nij", feet, arms).reshape(3, 9)
-        bent = matrix.T @ matrix - np.eye(3)
-        more, values = [], []
-        for i in range(3):
-            for j in range(i, 3):
-                row = np.zeros((3, 3))
-                row[:, i] += matrix[:, j]
-                row[:, j] += matrix[:, i]
-                more.append(row.ravel())
-                values.append(bent[i, j])
-        step = np.linalg.solve(np.vstack([rows, *more]), -np.concatenate([gaps, values]))
-        matrix += step.reshape(3, 3)
-        if np.abs(step).max() < 1e-15:
-            break
-    return matrix
-
-
 def frame_turn(drawn: Blade, stroke: float) -> float:
     """The C-frame's angle (about y, rad) at a stroke of its left lift cylinder: the law of cosines, seen from the
     side."""
