@@ -34,7 +34,7 @@ def twins(hardware: Assembly, at: tuple[float, float, float], size: float, half:
         fit_pin(hardware, (at[0], sign * at[1] - half, at[2]), size, 2 * half, body, role.format(letter))
 
 
-def clevis(at: tuple[float, float], base: list[tuple[float, float]], size: float, pin: float) -> Outline:
+def clevis(at: tuple[float, float], base: list[tuple[float, float]], size: float) -> Outline:
     """The outline of a lug about an eye, from its base; the base's corners counter-clockwise."""
     return [(at[0], at[1], size), *((a, b, 0.0) for a, b in base)]
 
@@ -54,10 +54,11 @@ def draw_frame(hardware: Assembly) -> Assembly:
     pair("C-FRAME BOSS", ring((px, HALF, pz), Y, 85, PIVOT_PIN / 2, 16))
     twins(hardware, (px, 468.0, pz), PIVOT_PIN, 70.0, BODY, "c_frame_pin")
     lx, _, lz = LIFT_FOOT
-    pair("LIFT CYL BRKT", box(lx - 130, lx + 110, HOOD, LIFT_Y + 42, 1_140, 1_225))
-    for name, y in (("IN", LIFT_Y - 40), ("OUT", LIFT_Y + 27)):
-        lug = plate(clevis((lx, lz), [(lx - 100, 1_225), (lx + 90, 1_225)], 50, LIFT_PIN), "xz", y, y + 13)
-        pair(f"LIFT CYL LUG {name}", bored(lug, Y, ((lx, 0, lz), LIFT_PIN / 2)))
+    pair("LIFT CYL BRKT", box(lx - 130, lx + 110, HOOD, LIFT_Y + 56, 1_140, 1_225))
+    outline = clevis((lx, lz), [(lx - 110, 1_225), (lx + 100, 1_225)], 50)
+    lugs = [plate(outline, "xz", y, y + 13) for y in (LIFT_Y - 40, LIFT_Y + 27)]
+    foot = box(lx - 110, lx + 100, LIFT_Y - 54, LIFT_Y + 54, 1_225, 1_243)
+    pair("LIFT CYL LUG", bored(fuse(foot, *lugs), Y, ((lx, 0, lz), LIFT_PIN / 2)))
     twins(hardware, (lx, LIFT_Y, lz), LIFT_PIN, 44.0, BODY, "lift_cylinder_barrel_{}_pin")
     inner = TRACK.side - 30 * TRACK.scale - 12 * TRACK.scale
     for name, x in (("FRONT", 760.0), ("REAR", -900.0)):

@@ -12,7 +12,7 @@ from pathlib import Path
 from drawing.cylinders import Cylinder, draw_cylinder
 from drawing.files import run, write_example
 from drawing.product import Assembly, Use
-from drawing.solids import X, Y, Z, Vector, frame, turn
+from drawing.solids import Vector, X, Z, frame, turn
 
 from . import values as v
 from .carrier import LIFT_PIN, draw_cab, draw_frame, draw_power, draw_undercarriage

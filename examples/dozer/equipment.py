@@ -1,5 +1,5 @@
-"""C-frame, pitch link and blade, drawn as they stand with the edge on the ground and carried from there with the C-frame.
-Machine frame, millimetres."""
+"""C-frame, pitch link and blade, drawn as they stand with the edge on the ground and carried from there with the
+C-frame. Machine frame, millimetres."""
 
 from __future__ import annotations
 
@@ -11,7 +11,7 @@ from OCP.TopoDS import TopoDS_Shape
 from drawing.cylinders import Cylinder
 from drawing.hardware import CLEARANCE, pin
 from drawing.product import GREY, STEEL, YELLOW, Assembly, Colour, Part
-from drawing.solids import X, Y, Z, Vector, bored, box, cut, fuse, mirrored, moved, plate, rod, sheet_box, shift, turn
+from drawing.solids import Vector, X, Y, Z, bored, box, fuse, mirrored, plate, sheet_box, shift, turn
 
 from . import values as v
 from .carrier import LIFT_PIN, PIVOT_PIN, clevis
@@ -38,6 +38,7 @@ class Drawer:
         self.tree, self._hardware, self._at = Assembly(name), hardware, carried(up)
 
     def put(self, name: str, shape: TopoDS_Shape, body: str, colour: Colour = YELLOW) -> None:
+        """A part."""
         self.tree.add(Part(name, shape, colour), body, at=self._at)
 
     def pair(self, name: str, shape: TopoDS_Shape, body: str, colour: Colour = YELLOW) -> None:
@@ -59,14 +60,19 @@ class Drawer:
 
 def _lugs(d: Drawer, name: str, outline: list[tuple[float, float, float]], plane: str, gaps: tuple[float, float, float],
           hole: float, body: str, *, twin: bool = False) -> None:  # fmt: skip
-    """The two plates of a clevis: about a middle, so far apart inside, so thick."""
+    """A clevis: two plates about a middle, so far apart inside, so thick, on a foot plate."""
     middle, inside, thick = gaps
     axis = Y if plane == "xz" else Z
     x, y, _ = outline[0]
     at = (x, 0.0, y) if plane == "xz" else (x, y, 0.0)
-    for word, low in (("A", middle - inside - thick), ("B", middle + inside)):
-        shape = bored(plate(outline, plane, low, low + thick), axis, (at, hole / 2))
-        (d.pair if twin else d.put)(f"{name} {word}", shape, body)
+    (ax, ay, _), (bx, by, _) = outline[1:]
+    size = math.hypot(bx - ax, by - ay)
+    nx, ny = -(by - ay) / size * 18, (bx - ax) / size * 18
+    foot = [(ax, ay, 0.0), (bx, by, 0.0), (bx + nx, by + ny, 0.0), (ax + nx, ay + ny, 0.0)]
+    wide = inside + thick + 14
+    cheeks = [plate(outline, plane, low, low + thick) for low in (middle - inside - thick, middle + inside)]
+    shape = fuse(plate(foot, plane, middle - wide, middle + wide), *cheeks)
+    (d.pair if twin else d.put)(name, bored(shape, axis, (at, hole / 2)), body)
 
 
 def draw_c_frame(k: Linkage, up: float, hardware: Assembly, sizes: dict[str, Cylinder]) -> Assembly:
@@ -85,22 +91,22 @@ def draw_c_frame(k: Linkage, up: float, hardware: Assembly, sizes: dict[str, Cyl
     d.put("TOWER", sheet_box(2_180, 2_300, -90, 90, 640, 1_170, 14.0), body)
     ex, _, ez = k.lift_eye
     half = sizes["lift"].eye_width / 2 + 2
-    _lugs(d, "LIFT ROD LUG", clevis((ex, ez), [(ex - 110, 640), (ex + 110, 640)], 50, LIFT_PIN), "xz",
+    _lugs(d, "LIFT ROD LUG", clevis((ex, ez), [(ex - 110, 640), (ex + 110, 640)], 50), "xz",
           (LIFT_Y, half, 12), LIFT_PIN, body, twin=True)  # fmt: skip
     d.pins((ex, LIFT_Y, ez), LIFT_PIN, 42.0, body, "lift_piston_rod_{}_c_frame_pin")
     (lx, _, lz), _ = LINK
-    _lugs(d, "PITCH LINK LUG", clevis((lx, lz), [(2_300, lz + 35), (2_300, lz - 35)], 34, LINK_PIN), "xz",
+    _lugs(d, "PITCH LINK LUG", clevis((lx, lz), [(2_300, lz + 35), (2_300, lz - 35)], 34), "xz",
           (0.0, 22.0, 14), LINK_PIN, body)  # fmt: skip
     d.pin((lx, 0, lz), LINK_PIN, 40.0, body, "pitch_link_pin")
     tx, ty, tz = k.tilt_foot
     half = sizes["tilt"].eye_width / 2 + 2
-    _lugs(d, "TILT CYL LUG", clevis((tx, ty), [(2_300, 70), (2_300, -70)], 48, TILT_PIN), "xy",
+    _lugs(d, "TILT CYL LUG", clevis((tx, ty), [(2_300, 70), (2_300, -70)], 48), "xy",
           (tz, half, 20), TILT_PIN, body)  # fmt: skip
     d.pin((tx, ty, tz), TILT_PIN, half + 22, body, "tilt_cylinder_barrel_pin", upright=True)
     ax, ay, az = ANGLE_FOOT
     half = sizes["angle"].eye_width / 2 + 2
     d.pair("ANGLE CYL BRKT", box(ax - 170, ax - 70, ARM[1], 622, 560, az + half + 14), body)
-    _lugs(d, "ANGLE CYL LUG", clevis((ax, ay), [(ax - 70, 618), (ax - 70, 540)], 36, ANGLE_PIN), "xy",
+    _lugs(d, "ANGLE CYL LUG", clevis((ax, ay), [(ax - 70, 618), (ax - 70, 540)], 36), "xy",
           (az, half, 12), ANGLE_PIN, body, twin=True)  # fmt: skip
     d.pins((ax, ay, az), ANGLE_PIN, half + 14, body, "angle_cylinder_barrel_{}_pin", upright=True)
     return d.tree
@@ -138,20 +144,20 @@ def draw_blade(k: Linkage, up: float, hardware: Assembly, sizes: dict[str, Cylin
     bx, _, bz = BALL
     block = [(BACK, -150.0), (BACK, 150.0)]
     for word, low in (("LOWER", bz - 45 - 2 - 38), ("UPPER", bz + 45 + 2)):
-        lug = plate(clevis((bx, 0.0), block, 88, BALL_PIN), "xy", low, low + 38)
+        lug = plate(clevis((bx, 0.0), block, 88), "xy", low, low + 38)
         d.put(f"BALL LUG {word}", bored(lug, Z, ((bx, 0, 0), BALL_PIN / 2 + CLEARANCE)), body)
     _, (lx, _, lz) = LINK
-    _lugs(d, "PITCH LINK LUG", clevis((lx, lz), [(BACK, lz - 40), (BACK, lz + 20)], 34, LINK_PIN), "xz",
+    _lugs(d, "PITCH LINK LUG", clevis((lx, lz), [(BACK, lz - 40), (BACK, lz + 20)], 34), "xz",
           (0.0, 22.0, 14), LINK_PIN, body)  # fmt: skip
     d.pin((lx, 0, lz), LINK_PIN, 40.0, body, "pitch_link_blade_pin")
     tx, ty, tz = k.tilt_eye
     gap = sizes["tilt"].eye_width / 2 + 2
-    _lugs(d, "TILT ROD LUG", clevis((tx, ty), [(BACK, ty - 60), (BACK, ty + 60)], 48, TILT_PIN), "xy",
+    _lugs(d, "TILT ROD LUG", clevis((tx, ty), [(BACK, ty - 60), (BACK, ty + 60)], 48), "xy",
           (tz, gap, 20), TILT_PIN, body)  # fmt: skip
     d.pin((tx, ty, tz), TILT_PIN, gap + 22, body, "tilt_piston_rod_pin", upright=True)
     ax, ay, az = k.angle_eye
     gap = sizes["angle"].eye_width / 2 + 2
-    _lugs(d, "ANGLE ROD LUG", clevis((ax, ay), [(BACK, ay - 50), (BACK, ay + 50)], 36, ANGLE_PIN), "xy",
+    _lugs(d, "ANGLE ROD LUG", clevis((ax, ay), [(BACK, ay - 50), (BACK, ay + 50)], 36), "xy",
           (az, gap, 12), ANGLE_PIN, body, twin=True)  # fmt: skip
     d.pins((ax, ay, az), ANGLE_PIN, gap + 14, body, "angle_piston_rod_{}_pin", upright=True)
     return d.tree

@@ -129,6 +129,4 @@ def solve() -> Linkage:
         aside = _blade(*pins(free), 0.0, -v.ANGLE_STROKE.value / 2)
         return [tilt_of(over, drawn) - v.MAX_TILT.value, angle_of(aside, drawn) - v.BLADE_ANGLE.value]
 
-    return Linkage(
-        np.array([float(x), LIFT_Y, LIFT_Z]), float(closed), *pins(fsolve(ball, [980.0, 600.0], xtol=1e-13))
-    )
+    return Linkage(np.array([float(x), LIFT_Y, LIFT_Z]), float(closed), *pins(fsolve(ball, [980.0, 600.0], xtol=1e-13)))

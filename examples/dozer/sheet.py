@@ -7,11 +7,11 @@ from pathlib import Path
 from reportlab.pdfgen.canvas import Canvas
 
 from drawing.sheet_print import (
+    FULL,
     HALF,
     HEIGHT,
     MARGIN,
     SECOND,
-    FULL,
     Line,
     cylinder_table,
     flow,
@@ -50,7 +50,7 @@ def _first(c: Canvas) -> None:
     y = lines(c, x, y, rows, HALF)
     y = heading(c, x, y, "Travel", HALF)
     rows = (
-        Line("Maximum travel speed, forward", speed(v.TRAVEL_SPEED.value), ours=True),
+        Line("Maximum travel speed", speed(v.TRAVEL_SPEED.value), ours=True),
         Line("Maximum drawbar pull", (f"{v.DRAWBAR_PULL.value:.0f} kN", "71,900 lbf"), ours=True),
     )
     lines(c, x, y, rows, HALF)
@@ -78,7 +78,11 @@ def _first(c: Canvas) -> None:
 
 def _second(c: Canvas) -> None:
     y = heading(c, MARGIN, HEIGHT - 60, "Hydraulic cylinders", FULL)
-    kinds = (("Blade lift", 2, "LIFT"), ("Blade tilt", 1, "TILT"), ("Blade angle", 2, "ANGLE"))
+    kinds = (
+        ("Blade lift cylinder", 2, "LIFT"),
+        ("Blade tilt cylinder", 1, "TILT"),
+        ("Blade angle cylinder", 2, "ANGLE"),
+    )
     rows = [
         (name, count, tuple(getattr(v, f"{key}_{what}") for what in ("STROKE", "BORE", "ROD")))
         for name, count, key in kinds

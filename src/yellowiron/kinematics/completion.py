@@ -16,6 +16,7 @@ from yellowiron.kinematics.solver.pose_grid import PoseGrid, explore, joint_valu
 from yellowiron.kinematics.spatial_hints import locked_hint
 from yellowiron.kinematics.strength import carried, rated_load, strong_enough, weight
 from yellowiron.kinematics.tolerances import PINS_APART
+from yellowiron.kinematics.twins import end_with_twins, twins_out_of_stroke
 from yellowiron.model.finding import Finding
 from yellowiron.model.geometry import Floats
 from yellowiron.model.mechanism import PROVISIONAL, STATED, Drive, Joint, Mechanism, Mobility, Site
@@ -30,8 +31,6 @@ STRAIGHT = 0.05
 """|sine| at a triangle of pivots below which a loop is too near its dead point to have a branch."""
 _BACK = 2e-3
 """Metres or radians by which a limit that was drawn in stands back from the dead point."""
-_EVEN = 1e-3
-"""Metres by which a passive twin may go past its own stroke."""
 _FLAT = 1e-6
 """|sine| of a drawn triangle of pivots that is none: its loop has no branch."""
 _OWN, _OTHERS = 13, 25
@@ -77,21 +76,25 @@ def complete(mechanism: Mechanism) -> Mechanism:
 
     Findings: KIN001 stroke past a dead point, KIN002 unreachable combination of strokes, KIN003 branch, KIN004 passive
     twin out of stroke, KIN005 mobility, KIN006 stated limit against the loop's, KIN007 drive without force or speed,
-    KIN008 pins out of parallel, KIN009 no ends of stroke, KIN015 too weak for its own weight.
+    KIN008 pins out of parallel, KIN009 no ends of stroke, KIN015 too weak for its own weight, KIN016 stroke that
+    ends with its twin's.
     Raises `MechanismError` where the joints are no tree with cuts.
     """
     chain = ClosedChain(mechanism)
     work = _Work(chain, {joint.name: joint for joint in mechanism.joints})
     whole, mechanism = mechanism, chain.mechanism
     mobility = _mobility(mechanism, work)
-    grids = [explore(chain, ranges) for ranges in _ranges(work)]
+    ranges = _ranges(work)
+    for component, own in zip(chain.components(), ranges, strict=True):
+        work.findings += end_with_twins(chain, component, own, work.joints)
+    grids = [explore(chain, own) for own in ranges]
     placed = [chain.placements(grid.states) for grid in grids]
     for component, grid in zip(chain.components(), grids, strict=True):
         _report_unreachable(grid, work)
         _report_gap(component, grid, work)
     for component, grid, (rotations, _) in zip(chain.components(), grids, placed, strict=True):
         _limit(component, grid, rotations, work)
-    _check_twins(mechanism, work)
+    work.findings += twins_out_of_stroke(mechanism, work.joints, SLIDE_MARGIN)
     loops = _branches(mechanism, grids, placed, work)
     work.findings += strong_enough(chain, grids, work.joints)
     _gains(mechanism, grids, work, ringed=bool(whole.floating))
@@ -228,24 +231,6 @@ def _limit(component: Component, grid: PoseGrid, rotations: Floats, work: _Work)
 
 def _text(value: float, joint: Joint) -> str:
     return f"{1e3 * value:.1f} mm" if joint.type == "prismatic" else f"{math.degrees(value):.2f}°"
-
-
-def _check_twins(mechanism: Mechanism, work: _Work) -> None:
-    """A passive twin must stay within its own stroke while the driven one uses all of its own."""
-    for cylinder in mechanism.cylinders:
-        slide = work.joints.get(cylinder.slide)
-        if not cylinder.passive or slide is None or slide.lower is None or slide.upper is None:
-            continue
-        short = -cylinder.extension - (slide.lower + SLIDE_MARGIN)
-        long = (slide.upper - SLIDE_MARGIN) - (cylinder.stroke - cylinder.extension)
-        if max(short, long) > _EVEN:
-            work.find(
-                "KIN004",
-                "warning",
-                cylinder.slide,
-                f"the twin cylinder would have to go {1e3 * max(short, long):.1f} mm past its own stroke",
-                "Check stroke, closed length and the pins of both cylinders.",
-            )
 
 
 def _branches(mechanism: Mechanism, grids: list[PoseGrid], placed: list[tuple[Floats, Floats]], work: _Work) -> Any:

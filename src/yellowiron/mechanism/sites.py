@@ -132,20 +132,20 @@ def _foremost_site(entry: SiteTemplate, placement: Placement) -> Site:
 
 
 def _corner_site(entry: SiteTemplate, placement: Placement) -> Site:
-    """Of a body's points near its left or right end the lowest, of equally low ones the foremost: a blade's corner; or
-    midway between both."""
+    """Of a body's points near its left or right end the one farthest down and ahead, whichever way it is pitched: a
+    blade's corner; or midway between both."""
     points = placement.points_of(placement.rows_of_body(entry.body))
     across = points[:, 1]
     near = _END * float(across.max() - across.min())
     ends = {"l": points[across >= across.max() - near], "r": points[across <= across.min() + near]}
     corners = {}
     for side, end in ends.items():
-        low = end[end[:, 2] <= end[:, 2].min() + _EDGE]
-        ahead = low[low[:, 0] >= low[:, 0].max() - _EDGE]
-        corners[side] = ahead[np.argmax(ahead[:, 1] if side == "l" else -ahead[:, 1])]
+        ahead = end[:, 0] - end[:, 2]
+        tip = end[ahead >= ahead.max() - _EDGE]
+        corners[side] = tip[np.argmax(tip[:, 1] if side == "l" else -tip[:, 1])]
     which = str(entry.rule["corner"])
     position = corners[which] if which in corners else 0.5 * (corners["l"] + corners["r"])
-    return Site(entry.name, entry.body, clean_triple(position), source=f"lowest corner of '{entry.body}': {which}")
+    return Site(entry.name, entry.body, clean_triple(position), source=f"corner of '{entry.body}': {which}")
 
 
 def _foremost(body: str, share: float, placement: Placement) -> list[int]:

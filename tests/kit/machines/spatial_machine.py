@@ -7,8 +7,8 @@ from collections.abc import Mapping, Sequence
 from dataclasses import dataclass
 
 import numpy as np
-from drawing.ball import turned
 
+from drawing.ball import turned
 from yellowiron.mechanism.joints.tree import Link, LinkKind, span_tree
 from yellowiron.model.mechanism import Actuator, ActuatorJoint, Body, Cylinder, Drive, Joint, Mechanism
 
