@@ -21,6 +21,8 @@ HOOD = 390.0
 """Half of the hood's width."""
 PIVOT_PIN, LIFT_PIN = 90.0, 60.0
 """Diameters."""
+LIFT_EYE = 60.0
+"""Width of the lift cylinders' eyes."""
 TRACK = Track(
     v.TRACK_ON_GROUND.value / 2, 15, 6, v.TRACK_GAUGE.value, v.SHOE_WIDTH.value, v.TRACK_LENGTH.value,
     tuple(1_225.0 - 350.0 * i for i in range(int(v.TRACK_ROLLERS.value))), 95.0, (450.0, -450.0), 55.0, BODY, 2.2,
@@ -55,13 +57,13 @@ def draw_frame(hardware: Assembly) -> Assembly:
     twins(hardware, (px, 468.0, pz), PIVOT_PIN, 70.0, BODY, "c_frame_pin")
     lx, _, lz = LIFT_FOOT
     pair("LIFT CYL BRKT", box(lx - 130, lx + 110, HOOD, LIFT_Y + 56, 1_140, 1_225))
-    outline = clevis((lx, lz), [(lx - 110, 1_225), (lx + 100, 1_225)], 50)
-    lugs = [plate(outline, "xz", y, y + 13) for y in (LIFT_Y - 40, LIFT_Y + 27)]
-    foot = box(lx - 110, lx + 100, LIFT_Y - 54, LIFT_Y + 54, 1_225, 1_243)
+    outline = clevis((lx, lz), [(lx - 120, 1_225), (lx + 50, 1_225)], 50)
+    lugs = [plate(outline, "xz", y, y + 13) for y in (LIFT_Y - LIFT_EYE / 2 - 15, LIFT_Y + LIFT_EYE / 2 + 2)]
+    foot = box(lx - 120, lx + 50, LIFT_Y - 56, LIFT_Y + 56, 1_225, 1_243)
     pair("LIFT CYL LUG", bored(fuse(foot, *lugs), Y, ((lx, 0, lz), LIFT_PIN / 2)))
-    twins(hardware, (lx, LIFT_Y, lz), LIFT_PIN, 44.0, BODY, "lift_cylinder_barrel_{}_pin")
+    twins(hardware, (lx, LIFT_Y, lz), LIFT_PIN, 50.0, BODY, "lift_cylinder_barrel_{}_pin")
     inner = TRACK.side - 30 * TRACK.scale - 12 * TRACK.scale
-    for name, x in (("FRONT", 760.0), ("REAR", -900.0)):
+    for name, x in (("FRONT", -60.0), ("REAR", -1_100.0)):
         pair(f"AXLE BEAM {name}", sheet_box(x - 110, x + 110, HALF, inner, 430, 560, 14.0), DARK)
     back = v.TRACK_LENGTH.value / 2 - v.BARE_LENGTH.value
     tree.add(Part("DRAWBAR", box(back, rear, -90, 90, 420, 520), DARK), BODY)

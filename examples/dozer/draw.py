@@ -15,7 +15,7 @@ from drawing.product import Assembly, Use
 from drawing.solids import Vector, X, Z, frame, turn
 
 from . import values as v
-from .carrier import LIFT_PIN, draw_cab, draw_frame, draw_power, draw_undercarriage
+from .carrier import LIFT_EYE, LIFT_PIN, draw_cab, draw_frame, draw_power, draw_undercarriage
 from .equipment import ANGLE_PIN, TILT_PIN, carried, draw_blade, draw_c_frame, draw_link
 from .linkage import ANGLE_FOOT, LIFT_FOOT, LIFTED, raised, solve, turn_for
 from .sheet import write
@@ -32,8 +32,8 @@ def cylinders() -> dict[str, Cylinder]:
     lengths = {"lift": k.lift_length(UP)}
     lengths |= {name: k.closed(name) + getattr(v, f"{name.upper()}_STROKE").value / 2 for name in ("tilt", "angle")}
     sizes = {
-        "lift": (120, LIFT_PIN, 48, 50, 85, 28, 55, 65),
-        "tilt": (142, TILT_PIN, 46, 60, 85, 32, 60, 65),
+        "lift": (118, LIFT_PIN, 46, LIFT_EYE, 150, 28, 55, 65),
+        "tilt": (142, TILT_PIN, 46, 72, 120, 32, 60, 65),
         "angle": (98, ANGLE_PIN, 36, 48, 65, 24, 48, 55),
     }
     found = {}

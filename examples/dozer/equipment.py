@@ -93,7 +93,7 @@ def draw_c_frame(k: Linkage, up: float, hardware: Assembly, sizes: dict[str, Cyl
     half = sizes["lift"].eye_width / 2 + 2
     _lugs(d, "LIFT ROD LUG", clevis((ex, ez), [(ex - 110, 640), (ex + 110, 640)], 50), "xz",
           (LIFT_Y, half, 12), LIFT_PIN, body, twin=True)  # fmt: skip
-    d.pins((ex, LIFT_Y, ez), LIFT_PIN, 42.0, body, "lift_piston_rod_{}_c_frame_pin")
+    d.pins((ex, LIFT_Y, ez), LIFT_PIN, 48.0, body, "lift_piston_rod_{}_c_frame_pin")
     (lx, _, lz), _ = LINK
     _lugs(d, "PITCH LINK LUG", clevis((lx, lz), [(2_300, lz + 35), (2_300, lz - 35)], 34), "xz",
           (0.0, 22.0, 14), LINK_PIN, body)  # fmt: skip

@@ -32,7 +32,7 @@ TILT_X, TILT_Y = 2_470.0, (130.0, 950.0)
 ANGLE_FOOT = np.array([1_460.0, 580.0, ANGLE_Z])
 ANGLE_X = 2_560.0
 """Where the angle cylinders' eyes are."""
-LINK = (np.array([2_350.0, 0.0, 1_100.0]), np.array([2_580.0, 0.0, 1_130.0]))
+LINK = (np.array([2_366.0, 0.0, 1_100.0]), np.array([2_580.0, 0.0, 1_130.0]))
 """The pitch link's ends, on the C-frame and on the blade."""
 LIFTED = 300.0
 """How high the edge is drawn."""
