@@ -11,7 +11,7 @@ from OCP.TopoDS import TopoDS_Shape
 from drawing.cylinders import Cylinder
 from drawing.hardware import CLEARANCE, pin
 from drawing.product import GREY, STEEL, YELLOW, Assembly, Colour, Part
-from drawing.solids import Vector, X, Y, Z, bored, box, fuse, mirrored, plate, sheet_box, shift, turn
+from drawing.solids import Vector, X, Y, Z, ball, bored, box, cut, fuse, mirrored, plate, rod, sheet_box, shift, turn
 
 from . import values as v
 from .carrier import LIFT_PIN, PIVOT_PIN, clevis
@@ -19,7 +19,9 @@ from .linkage import ANGLE_FOOT, BALL, EDGE_X, LIFT_Y, LINK, PIVOT, Linkage
 
 ARM = (440.0, 520.0)
 """The C-frame's arms across."""
-BALL_PIN, LINK_PIN, TILT_PIN, ANGLE_PIN = 100.0, 45.0, 55.0, 45.0
+BALL_RADIUS, NECK = 75.0, 32.0
+"""Radii of the ball and of its stud."""
+LINK_PIN, TILT_PIN, ANGLE_PIN = 45.0, 55.0, 45.0
 """Diameters."""
 BACK = 2_640.0
 """The blade's back plate."""
@@ -85,9 +87,10 @@ def draw_c_frame(k: Linkage, up: float, hardware: Assembly, sizes: dict[str, Cyl
     d.pair("C-FRAME ARM", arm, body)
     d.put("CROSS BOX", sheet_box(2_110, 2_300, -ARM[0], ARM[0], 440, 640, 18.0), body)
     bx, _, bz = BALL
-    nose = plate([(bx, 0, 95), (2_300, 170, 0), (2_300, -170, 0)], "xy", bz - 45, bz + 45)
-    d.put("NOSE", bored(nose, Z, ((bx, 0, 0), BALL_PIN / 2)), body)
-    d.pin((bx, 0, bz), BALL_PIN, 105.0, body, "blade_ball_pin", upright=True)
+    nose = box(2_300, bx - 95, -95, 95, bz - 95, bz + 95)
+    d.put("NOSE", bored(nose, X, ((0, 0, bz), NECK)), body)
+    stud = fuse(rod((2_304, 0, bz), X, NECK, bx - 2_304), ball((bx, 0, bz), BALL_RADIUS))
+    d.tree.add(Part("BALL STUD", stud, STEEL), body, "blade_ball_pin", carried(up))
     d.put("TOWER", sheet_box(2_180, 2_300, -90, 90, 640, 1_170, 14.0), body)
     ex, _, ez = k.lift_eye
     half = sizes["lift"].eye_width / 2 + 2
@@ -142,10 +145,9 @@ def draw_blade(k: Linkage, up: float, hardware: Assembly, sizes: dict[str, Cylin
     for letter, shape in (("l", bit), ("r", mirrored(bit))):
         d.tree.add(Part(f"END BIT {letter.upper()}H", shape, STEEL), body, f"end_bit_{letter}", carried(up))
     bx, _, bz = BALL
-    block = [(BACK, -150.0), (BACK, 150.0)]
-    for word, low in (("LOWER", bz - 45 - 2 - 38), ("UPPER", bz + 45 + 2)):
-        lug = plate(clevis((bx, 0.0), block, 88), "xy", low, low + 38)
-        d.put(f"BALL LUG {word}", bored(lug, Z, ((bx, 0, 0), BALL_PIN / 2 + CLEARANCE)), body)
+    hollow = ball((bx, 0, bz), BALL_RADIUS + CLEARANCE)
+    d.put("BALL SOCKET", cut(box(bx, BACK, -115, 115, bz - 115, bz + 115), hollow), body)
+    d.put("SOCKET CAP", cut(box(bx - 32, bx, -115, 115, bz - 115, bz + 115), hollow), body, GREY)
     _, (lx, _, lz) = LINK
     _lugs(d, "PITCH LINK LUG", clevis((lx, lz), [(BACK, lz - 40), (BACK, lz + 20)], 34), "xz",
           (0.0, 22.0, 14), LINK_PIN, body)  # fmt: skip

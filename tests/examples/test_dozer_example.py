@@ -142,5 +142,7 @@ def test_bodies_do_not_meet_as_drawn(made_once: MadeOnce) -> None:
     folder = drawn_example(TYPE, made_once)
     bodies = {path: entry["body"] for path, entry in truth_of(folder)["parts"].items()}
     met = met_as_drawn(folder / "dozer.step", bodies)
-    tracks = ("track_", "sprocket_", "idler_", "carrier_")  # shoes lie on wheels and on each other
-    assert [pair for pair in met if not all(bodies[p].startswith((*tracks, "main_frame")) for p in pair)] == []
+    # Shoes lie on wheels and on each other; a ball's facets touch those of its socket, 0.2 mm around it.
+    tracks = ("track_", "sprocket_", "idler_", "carrier_", "main_frame")
+    others = [pair for pair in met if not all(bodies[part].startswith(tracks) for part in pair)]
+    assert [pair for pair in others if not any("BALL STUD" in part for part in pair)] == []
