@@ -156,7 +156,8 @@ def draw_blade(k: Linkage, up: float, hardware: Assembly, sizes: dict[str, Cylin
     gap = sizes["tilt"].eye_width / 2 + 2
     _lugs(d, "TILT ROD LUG", clevis((tx, ty), [(BACK, ty - 60), (BACK, ty + 60)], 48), "xy",
           (tz, gap, 20), TILT_PIN, body)  # fmt: skip
-    d.pin((tx, ty, tz), TILT_PIN, gap + 22, body, "tilt_piston_rod_pin", upright=True)
+    # The pin stands out farther above than below: the bearing is in the eye, not in its middle.
+    d.pin((tx, ty, tz + 15), TILT_PIN, gap + 37, body, "tilt_piston_rod_pin", upright=True)
     ax, ay, az = k.angle_eye
     gap = sizes["angle"].eye_width / 2 + 2
     _lugs(d, "ANGLE ROD LUG", clevis((ax, ay), [(BACK, ay - 50), (BACK, ay + 50)], 36), "xy",

@@ -17,6 +17,7 @@ from kit.machines.spatial_machine import (
     drawbar,
     drawbar_machine,
     frame_turn,
+    push_arms,
     strokes,
 )
 from yellowiron.kinematics import ClosedChain, complete
@@ -103,6 +104,24 @@ def test_mobility_is_without_the_idle_spins() -> None:
     assert [f for f in done.findings if f.code not in ("KIN004", "KIN007", "KIN015")] == []
     chain = ClosedChain(done)
     assert [set(c.drivers) for c in chain.components()] == [{"lift_l"}, {"tilt", "angle_l"}]
+
+
+@pytest.mark.parametrize(("dual", "freedoms"), [(False, 2), (True, 3)])
+def test_push_arms_have_the_freedoms_of_their_cylinders(dual: bool, freedoms: int) -> None:
+    done = complete(push_arms(dual=dual))
+    assert done.mobility is not None
+    assert (done.mobility.computed, done.mobility.expected) == (freedoms, freedoms)
+    assert all(loop.branch in (-1, 1) for loop in done.loops)
+    assert not any(joint.cut and joint.type == "revolute" for joint in done.joints)
+    assert not [f for f in done.findings if f.code in ("KIN001", "KIN002", "KIN003", "KIN005", "KIN008")]
+
+
+def test_drives_that_act_through_the_axis_they_should_turn_are_found() -> None:
+    """Without yokes, a pin on the left and a ball on the right: the number is right, but the brace holds its arm alone,
+    and nothing the blade's tilt."""
+    done = complete(push_arms(dual=False, yokes=False))
+    assert done.mobility is not None and done.mobility.computed == done.mobility.expected == 2
+    assert [f.code for f in done.findings if f.severity == "error"] == ["KIN017"]
 
 
 def test_links_between_balls_do_not_twist_wherever_they_come_from() -> None:

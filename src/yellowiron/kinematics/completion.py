@@ -77,7 +77,7 @@ def complete(mechanism: Mechanism) -> Mechanism:
     Findings: KIN001 stroke past a dead point, KIN002 unreachable combination of strokes, KIN003 branch, KIN004 passive
     twin out of stroke, KIN005 mobility, KIN006 stated limit against the loop's, KIN007 drive without force or speed,
     KIN008 pins out of parallel, KIN009 no ends of stroke, KIN015 too weak for its own weight, KIN016 stroke that
-    ends with its twin's.
+    ends with its twin's, KIN017 drives that do not determine a linkage in space.
     Raises `MechanismError` where the joints are no tree with cuts.
     """
     chain = ClosedChain(mechanism)
@@ -126,6 +126,15 @@ def _mobility(mechanism: Mechanism, work: _Work) -> Mobility:
             f"Nothing holds: {', '.join(n for n in work.chain.idle if n not in held) or 'a body'}."
             if more
             else suspects(mechanism) or locked_hint(mechanism),
+        )
+    elif not work.chain.plain and work.chain.undetermined:
+        work.find(
+            "KIN017",
+            "error",
+            mechanism.name,
+            f"as drawn its drives do not determine it: {work.chain.undetermined} of its {mobility.computed} degrees of "
+            "freedom is left with all of them held",
+            "A cylinder, brace or link acts through an axis that it should turn about: check their places.",
         )
     return mobility
 

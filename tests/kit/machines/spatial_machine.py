@@ -26,6 +26,8 @@ class Ram:
     eye: np.ndarray
     travel: float
     passive: bool = False
+    stiffness: float = 0.0
+    """Of its drive, N/m; 0: as the kinematics has it."""
 
     @property
     def length(self) -> float:
@@ -70,13 +72,11 @@ def blade_machine(drawn: Blade) -> Mechanism:
     made.body(MAIN, np.zeros(3), 15000.0)
     made.body(FRAME, drawn.pivot, 1500.0, middle=0.5 * (drawn.pivot + drawn.ball))
     made.body(BLADE, drawn.ball, 2000.0, middle=drawn.ball + np.array([0.2, 0.0, 0.1]))
-    made.body("link", drawn.link[0], 30.0, middle=0.5 * (drawn.link[0] + drawn.link[1]))
     made.joint("frame_pivot", "revolute", (MAIN, FRAME), drawn.pivot, LATERAL)
     for ram in drawn.rams:
         made.ram(ram)
     made.joint("blade_ball", "spherical", (FRAME, BLADE), drawn.ball)
-    made.joint("link_foot", "spherical", (FRAME, "link"), drawn.link[0])
-    made.joint("link_eye", "spherical", ("link", BLADE), drawn.link[1])
+    made.link("link", (FRAME, BLADE), *drawn.link)
     return made.mechanism("dozer", ("lift_l", "tilt", "angle_l"))
 
 
@@ -105,6 +105,37 @@ def drawbar_machine(nose: np.ndarray, rams: Sequence[Ram]) -> Mechanism:
         made.ram(ram)
     made.joint("nose", "spherical", (MAIN, "drawbar"), nose)
     return made.mechanism("grader", tuple(r.name for r in rams))
+
+
+def push_arms(*, dual: bool, yokes: bool = True) -> Mechanism:
+    """A semi-U blade on push arms: balls at the trunnions, at the blade yokes with crossed pins, a tag link across,
+    lift cylinders; on the right arm a brace, or the second tilt cylinder."""
+    made = _Maker(MAIN)
+    trunnions = {s: np.array([0.2, side * 1.35, 0.5]) for s, side in (("l", 1.0), ("r", -1.0))}
+    pins = {s: np.array([2.5, side * 1.3, 0.35]) for s, side in (("l", 1.0), ("r", -1.0))}
+    made.body(MAIN, np.zeros(3), 18000.0)
+    for s in "lr":
+        made.body(f"arm_{s}", trunnions[s], 600.0, middle=0.5 * (trunnions[s] + pins[s]))
+        if yokes:
+            made.body(f"yoke_{s}", pins[s], 60.0)
+    made.body(BLADE, pins["l"], 1900.0, middle=np.array([2.7, 0.0, 0.6]))
+    for s in "lr":
+        made.joint(f"trunnion_{s}", "spherical", (MAIN, f"arm_{s}"), trunnions[s])
+        if yokes:
+            made.joint(f"pitch_{s}", "revolute", (f"arm_{s}", f"yoke_{s}"), pins[s], LATERAL)
+            made.joint(f"yaw_{s}", "revolute", (f"yoke_{s}", BLADE), pins[s], (0.0, 0.0, 1.0))
+        else:
+            made.joint(f"pin_{s}", "revolute" if s == "l" else "spherical", (f"arm_{s}", BLADE), pins[s], LATERAL)
+    for s, side in (("l", 1.0), ("r", -1.0)):
+        foot, eye = np.array([1.5, side * 1.32, 0.62]), np.array([2.55, side * 1.3, 1.15])
+        if s == "l" or dual:
+            made.ram(Ram(f"tilt_{s}", (f"arm_{s}", BLADE), foot, eye, 0.05, stiffness=5e7))
+        else:
+            made.link("brace", ("arm_r", BLADE), foot, eye)
+        lift = np.array([1.3, side * 0.5, 1.6]), np.array([2.45, side * 0.55, 0.55])
+        made.ram(Ram(f"lift_{s}", (MAIN, BLADE), *lift, 0.25, passive=s == "r"))
+    made.link("tag", (MAIN, BLADE), np.array([2.0, 0.75, 0.62]), np.array([2.45, -0.95, 0.6]))
+    return made.mechanism("dozer", ("lift_l", "tilt_l", *(("tilt_r",) if dual else ())))
 
 
 # ---- by other means --------------------------------------------------------------------------------------------------
@@ -174,6 +205,12 @@ class _Maker:
         self.joint(f"{ram.name}_eye", "spherical", (rod, ram.bodies[1]), ram.eye, link=_link(ram, "loose"))
         self._rams.append(ram)
 
+    def link(self, name: str, bodies: tuple[str, str], foot: np.ndarray, eye: np.ndarray) -> None:
+        """A body between two balls."""
+        self.body(name, foot, 40.0, middle=0.5 * (foot + eye))
+        self.joint(f"{name}_foot", "spherical", (bodies[0], name), foot)
+        self.joint(f"{name}_eye", "spherical", (name, bodies[1]), eye)
+
     def mechanism(self, name: str, driven: Sequence[str]) -> Mechanism:
         links = [
             Link(n, bodies, self._kinds[n], kind == "revolute") for n, (kind, bodies, _, _) in self._joints.items()
@@ -181,12 +218,13 @@ class _Maker:
         tree = span_tree(self._root, links)
         origins = {self._root: np.zeros(3)} | {b: self._joints[j][2] for b, j in tree.leading.items()}
         travel = {r.name: r.travel for r in self._rams}
+        stiffness = {r.name: r.stiffness for r in self._rams}
         joints = []
         for joint, (kind, bodies, at, axis) in self._joints.items():
             lower = upper = drive = None
             if joint in driven:
                 lower, upper = -travel[joint], travel[joint]
-                drive = Drive("position", 0.0, 0.0, 6e5, 0.25)
+                drive = Drive("position", stiffness[joint], 0.0, 6e5, 0.25)
             elif kind == "prismatic":
                 lower, upper = -2.0 * travel[joint], 2.0 * travel[joint]
             sides = tree.sides[joint]

@@ -16,7 +16,7 @@ import numpy as np
 
 from yellowiron.kinematics.solver.floating import attached
 from yellowiron.kinematics.solver.idle_spins import idle_spins
-from yellowiron.kinematics.solver.independence import independent_joints, square_system, suspects
+from yellowiron.kinematics.solver.independence import independent_joints, locked_error, square_system, suspects
 from yellowiron.kinematics.solver.multibody import build, transverse
 from yellowiron.kinematics.solver.positions import continued
 from yellowiron.kinematics.tolerances import CLOSED, RANK
@@ -154,9 +154,18 @@ class ClosedChain:
     @property
     def degrees_of_freedom(self) -> int:
         """Tree coordinates less the rank of the constraint Jacobian (singular values) in the drawn pose."""
+        return int(self._model.nv) - self._rank()
+
+    @property
+    def undetermined(self) -> int:
+        """How many ways are left to move in the drawn pose with all independent coordinates held, where others hold
+        each other: there drives are at a dead point."""
+        return self._rank() - len(self._rows)
+
+    def _rank(self) -> int:
         jacobian = self._at(self.drawn)
         values = np.linalg.svd(jacobian, compute_uv=False) if jacobian.size else np.zeros(0)
-        return int(self._model.nv - np.count_nonzero(values > RANK * max(1.0, float(values.max(initial=0.0)))))
+        return int(np.count_nonzero(values > RANK * max(1.0, float(values.max(initial=0.0)))))
 
     def components(self) -> tuple[Component, ...]:
         """The groups of coordinates that the loops couple, in the mechanism's order."""
@@ -320,7 +329,7 @@ class ClosedChain:
             mujoco.mj_makeConstraint(model, data)
             points = len(self._body.bases)
             if data.nefc != 3 * points:
-                raise self._locked()
+                raise locked_error(self.mechanism, tuple(self._body.cuts))
             turned = self._body.frames @ data.xmat[self._body.bases].reshape(points, 3, 3).transpose(0, 2, 1)
             self._gaps = (turned @ data.efc_pos.reshape(points, 3, 1)).reshape(-1)
             self._jacobian = (turned @ data.efc_J.reshape(points, 3, model.nv)).reshape(3 * points, model.nv)
@@ -345,23 +354,6 @@ class ClosedChain:
             rows[number, column : column + 3] = 0.5 * (w * spin.line + np.cross(spin.line, vector))
         self._gaps = np.concatenate([self._gaps[:loops], gaps])
         self._jacobian = np.concatenate([self._jacobian[:loops], rows])
-
-    def _locked(self) -> MechanismError:
-        """The error for cuts whose bodies cannot move against each other, with the joints that hold them."""
-        rigid = {
-            loop.cut: [name for name in loop.joints if name != loop.cut]
-            for loop in self.mechanism.loops
-            if all(self._joints[name].type == "fixed" for name in loop.joints if name != loop.cut)
-        }
-        holding = list(dict.fromkeys(name for names in rigid.values() for name in names)) or list(self._body.cuts)
-        hint = suspects(self.mechanism, holding)
-        if not hint:
-            hint = "Their loop has no moving joint: remove one of its joints, or add the missing pivots."
-        return MechanismError(
-            "a joint joins two bodies that cannot move against each other",
-            where=", ".join(rigid or self._body.cuts),
-            hint=f"{hint} They are held by {', '.join(holding)}." if rigid else hint,
-        )
 
     def _at(self, state: State) -> Floats:
         """Brings the model to a state; returns the closure Jacobian there."""
