@@ -152,10 +152,13 @@ LOADER = (
 )  # fmt: skip
 """The objects of `gaia_wheel_loader` in a file of seven machines."""
 BUILDERS: dict[str, Callable[[Job], None]] = {
+    "aik_forklift": one,
     "auwo_excavator": turned(urdf),
     "cat_390f_excavator": in_nodes(qml),
     "clem_excavator": one,
+    "crumbly_forklift": one,
     "dale8nson_excavator": one,
+    "dexzt_forklift": one,
     "dozzer197_excavator": turned(xacro),
     "fattahhanafi_excavator": turned(xacro),
     "fedem_wheel_loader": turned(ftl),
@@ -167,6 +170,7 @@ BUILDERS: dict[str, Callable[[Job], None]] = {
     "johnweez_komatsu": one,
     "johnweez_v2_simple": one,
     "jommsy_mini_excavator": turned(mjcf),
+    "karel_forklift": one,
     "kcl_wheel_loader": one,
     "kennyvilella_excavator": in_nodes(mjcf),
     "l580_wheel_loader": turned(xacro),
@@ -181,6 +185,7 @@ BUILDERS: dict[str, Callable[[Job], None]] = {
     "pudong_excavator": turned(urdf),
     "shebbyy_excavator": one,
     "simcity_excavator": one,
+    "simcity_forklift": one,
     "simscape_backhoe_arm": in_nodes(instances),
     "simscape_excavator": many,
     "simscape_wheel_loader": many,

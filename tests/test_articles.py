@@ -24,6 +24,13 @@ _WRONG = re.compile(
 )
 
 
+@pytest.fixture(scope="module")
+def nodes(root: Path) -> list[tuple[Path, ast.AST]]:
+    """All that the sources say, with its file."""
+    files = sorted((root / "src").rglob("*.py"))
+    return [(file, node) for file in files for node in ast.walk(ast.parse(file.read_text(encoding="utf-8")))]
+
+
 def test_the_article_of_a_word() -> None:
     said = ("articulated dump truck", "excavator", "wheel loader", "angle", "unit", "8 mm pin", "hour", "imu", "one")
     assert [with_article(w).split()[0] for w in said] == ["an", "an", "a", "an", "a", "an", "an", "an", "a"]
@@ -35,33 +42,31 @@ def test_what_is_told_to_be_wrong() -> None:
     assert all(map(_WRONG.search, wrong)) and not any(map(_WRONG.search, right[:-1]))
 
 
-def test_an_article_before_what_is_filled_in_is_chosen_by_it(root: Path) -> None:
+def test_an_article_before_what_is_filled_in_is_chosen_by_it(root: Path, nodes: list[tuple[Path, ast.AST]]) -> None:
     """Literals with an article at their end, before a value: `with_article` gives both. A number is written out."""
     bare = []
-    for file in sorted((root / "src").rglob("*.py")):
-        for node in ast.walk(ast.parse(file.read_text(encoding="utf-8"))):
-            if not isinstance(node, ast.JoinedStr):
-                continue
-            for text, filled in zip(node.values, node.values[1:], strict=False):
-                if (
-                    isinstance(text, ast.Constant)
-                    and _OPEN.search(str(text.value))
-                    and isinstance(filled, ast.FormattedValue)
-                ):
-                    bare.append(f"{file.name}:{node.lineno}: {ast.unparse(filled)}")
+    for file, node in nodes:
+        if not isinstance(node, ast.JoinedStr):
+            continue
+        for text, filled in zip(node.values, node.values[1:], strict=False):
+            if (
+                isinstance(text, ast.Constant)
+                and _OPEN.search(str(text.value))
+                and isinstance(filled, ast.FormattedValue)
+            ):
+                bare.append(f"{file.name}:{node.lineno}: {ast.unparse(filled)}")
     for pattern in ("*.js", "*.j2"):
         for file in sorted((root / "src").rglob(pattern)):
             bare += [f"{file.name}: {m}" for m in re.findall(r"\b[Aa]n? (?:\$\{|\{\{).{20}", file.read_text("utf-8"))]
     assert bare == []
 
 
-def test_the_program_itself_says_none(root: Path) -> None:
+def test_the_program_itself_says_none(nodes: list[tuple[Path, ast.AST]]) -> None:
     """Texts in the sources, docstrings too: they are the help."""
     found = []
-    for file in sorted((root / "src").rglob("*.py")):
-        for node in ast.walk(ast.parse(file.read_text(encoding="utf-8"))):
-            if isinstance(node, ast.Constant) and isinstance(node.value, str):
-                found += [f"{file.name}:{node.lineno}: {m.group(0)}" for m in _WRONG.finditer(node.value)]
+    for file, node in nodes:
+        if isinstance(node, ast.Constant) and isinstance(node.value, str):
+            found += [f"{file.name}:{node.lineno}: {m.group(0)}" for m in _WRONG.finditer(node.value)]
     assert found == []
 
 

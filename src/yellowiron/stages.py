@@ -94,11 +94,12 @@ def find_roles(
     decisions: Decisions = UNDECIDED,
 ) -> tuple[Assembly, Alignment]:
     """Roles for the parts of a CAD model, and the model whose parts they are: scaled where the sheet's overall length
-    asks for it; left and right hydraulic cylinders in one mesh apart, where they were taken for one of the two; those
-    that are drawn into other meshes taken out, where that finds a barrel and a rod that were missing; where bodies are
-    missing, or every mesh may be a whole one, taken apart, if that finds a limb, or most of what is missing. `earlier`
-    is an alignment file whose edits hold, and whose parts are the model's as long as a person decides on them;
-    `decisions` go before them."""
+    asks for it; left and right hydraulic cylinders in one mesh apart, where they were taken for one of the two; left
+    and right wheels in one mesh apart, if that finds two that were missing; hydraulic cylinders that are drawn into
+    other meshes taken out, where that finds a barrel and a rod that were missing; where bodies are missing, or every
+    mesh may be a whole one, taken apart, if that finds a limb, or most of what is missing. `earlier` is an alignment
+    file whose edits hold, and whose parts are the model's as long as a person decides on them; `decisions` go before
+    them."""
 
     def found(model: Assembly) -> Alignment:
         edits = read_alignment(earlier, model, template) if earlier is not None else None
@@ -119,6 +120,10 @@ def find_roles(
         """How many barrels and rods are missing."""
         return sum(role.name in alignment.missing for role in template.roles if role.kind in ("barrel", "rod"))
 
+    def wheels(alignment: Alignment) -> int:
+        """How many wheels are missing."""
+        return sum(role.name in unplayed(alignment) for role in template.roles if role.kind == "wheel")
+
     def limbs(alignment: Alignment) -> int:
         """How many arms, links and tools are missing: they are drawn into others, which frames are too large for."""
         arms = {role.name for role in template.roles if role.kind == "arm"}
@@ -138,6 +143,9 @@ def find_roles(
     # What is left and right in one mesh was taken for one of the two.
     if any(part.part in both and twin_role(part.body or "") is not None for part in alignment.parts):
         assembly, alignment = twins, found(twins)
+    rolling = cad.wheels_apart(assembly) if wheels(alignment) >= 2 else assembly
+    if rolling is not assembly and wheels(other := found(rolling)) + 2 <= wheels(alignment):
+        assembly, alignment = rolling, other
     model, best = assembly, alignment
     rams = cad.rams_apart(assembly) if halves(alignment) else assembly
     # A barrel and its rod at least.
@@ -169,11 +177,12 @@ def _known_by(parts: frozenset[str], drawn: Assembly) -> Assembly | None:
 
 def _ways(drawn: Assembly) -> Iterator[Assembly]:
     """The model as drawn, and as `find_roles` may take it apart."""
-    for model in (drawn, cad.twins_apart(drawn)):
-        yield model
-        yield cad.rams_apart(model)
-        if (apart := _apart(model)) is not None:
-            yield apart
+    for twins in (drawn, cad.twins_apart(drawn)):
+        for model in (twins, cad.wheels_apart(twins)):
+            yield model
+            yield cad.rams_apart(model)
+            if (apart := _apart(model)) is not None:
+                yield apart
 
 
 def _apart(assembly: Assembly) -> Assembly | None:

@@ -203,6 +203,13 @@ def test_collision_meshes() -> None:
     assert not collision_parts([part(f"Col_{k}") for k in range(9)])
 
 
+def test_features_that_a_cad_program_names_solids_after_say_nothing() -> None:
+    """A body that was moved is no chassis, a mirrored one no mirror."""
+    features = ["BODY-MOVECOPY43", "SCALE24", "MIRROR144", "Boss-Extrude81", "SPLIT141", "Move_Face6", "Cut-Extrude2"]
+    assert unnamed([*features, "Boom", "Rear mirror", "Bucket_Base", "track pad"]) == set(features)
+    assert unnamed(["Mirror", "Shell", "Body"]) == set()
+
+
 def test_names_of_modelling_tools_say_nothing(digger: Template) -> None:
     """A cylinder beside cubes and planes is a primitive, a cylinder beside booms is a hydraulic one."""
     tools = ["Cube.002", "Cylinder.003", "pCylinder12", "polySurface7", "Mesh_0_lambert1", "Box (3)"]

@@ -8,9 +8,11 @@ from dataclasses import replace
 import numpy as np
 import pytest
 import trimesh
+from hypothesis import given
+from hypothesis import strategies as st
 
 from kit.machines.solids import box, lathe, place, tube
-from yellowiron.cad import rams_apart, taken_apart, twins_apart
+from yellowiron.cad import rams_apart, taken_apart, twins_apart, wheels_apart
 from yellowiron.cad.mesh.assembly import Occurrence, assemble
 from yellowiron.model.assembly import Assembly, DeclaredJoint, Part
 from yellowiron.model.geometry import Mesh
@@ -147,6 +149,42 @@ def test_bars_that_are_no_cylinders_stay_together() -> None:
     slide = DeclaredJoint("slide", "prismatic", ("m0", "m1"), (0.0, 0.0, 0.0), (0.0, 0.0, 1.0))
     driven = replace(both, joints=(slide,))
     assert twins_apart(driven) is driven
+
+
+@given(
+    radius=st.floats(0.2, 2.0), width=st.floats(0.1, 0.7), track=st.floats(1.4, 4.0), count=st.integers(8, 40),
+    axis=st.integers(0, 2),
+)  # fmt: skip
+def test_wheels_to_the_left_and_to_the_right_come_apart(
+    radius: float, width: float, track: float, count: int, axis: int
+) -> None:
+    """Tyre and rim of two wheels of any proportions that are one mesh, however its axes lie."""
+    tyre, rim = (trimesh.creation.cylinder(k * radius, k * width * radius, sections=2 * count) for k in (1.0, 0.6))
+    wheel = merged(*(Mesh(np.asarray(m.vertices), np.asarray(m.faces, dtype=np.int32)) for m in (tyre, rim)))
+    mirrored = Mesh(wheel.points * [1.0, 1.0, -1.0], wheel.triangles[:, ::-1])
+    axle = merged(*(moved(m, 3.0, 1.0, k * 0.5 * track * radius) for m, k in ((wheel, 1), (mirrored, -1))))
+    axle = Mesh(np.roll(axle.points, axis + 1, axis=1), axle.triangles)
+    found = wheels_apart(assembly_of(axle, box("chassis", 4.0, 1.0, 1.0).mesh))
+    assert [p.id for p in found.parts] == ["m0/1", "m0/2", "m1"]
+    apart = np.subtract(*(found.points_of(p)[:, axis].mean() for p in found.parts[:2]))
+    assert abs(abs(apart) - track * radius) < 1e-3 * radius
+
+
+def test_what_is_no_pair_of_wheels_stays_together() -> None:
+    """Posts are square; a shaft joins both wheels of an axle; unequal wheels are of two axles."""
+
+    def wheel(radius: float) -> Mesh:
+        found = trimesh.creation.cylinder(radius, 0.3)
+        return Mesh(np.asarray(found.vertices), np.asarray(found.faces, dtype=np.int32))
+
+    def pair(one: Mesh, other: Mesh) -> Mesh:
+        return merged(moved(one, 0.0, 0.0, 0.8), moved(other, 0.0, 0.0, -0.8))
+
+    post, shaft = box("post", 0.3, 0.3, 0.6).mesh, trimesh.creation.cylinder(0.05, 1.6)
+    joined = merged(pair(wheel(0.5), wheel(0.5)), Mesh(np.asarray(shaft.vertices), np.asarray(shaft.faces, np.int32)))
+    for whole in (pair(post, post), joined, pair(wheel(0.5), wheel(0.4)), wheel(0.5)):
+        assembly = assembly_of(whole)
+        assert wheels_apart(assembly) is assembly
 
 
 def rest_and_rams(*meshes: Mesh) -> list[tuple[float, float]]:

@@ -88,18 +88,21 @@ def test_every_value_is_met(truth: dict[str, Any]) -> None:
 
 # ---- the linkage, measured by brute force --------
 @pytest.fixture(scope="module")
-def poses(linkage: ModuleType) -> list[Any]:
-    """Every corner of the work space and what lies between: poses over the three strokes."""
-    k = linkage.solve()
+def strokes(linkage: ModuleType) -> list[tuple[float, float, float]]:
+    """Of boom, arm and bucket: every corner of the work space and what lies between."""
     booms = np.linspace(linkage.BOOM_MIN, linkage.BOOM_MAX, 61)
     arms = np.linspace(linkage.ARM_MIN, linkage.ARM_MAX, 41)
     buckets = np.linspace(linkage.BUCKET_MIN, linkage.BUCKET_MAX, 41)
-    return [k.pose(float(b), float(a), float(c)) for b in booms for a in arms for c in buckets]
+    return [(float(b), float(a), float(c)) for b in booms for a in arms for c in buckets]
 
 
 @pytest.mark.slow
-def test_ranges_are_the_work_spaces(poses: list[Any], values: ModuleType, linkage: ModuleType) -> None:
+def test_ranges_are_the_work_spaces(
+    strokes: list[tuple[float, float, float]], values: ModuleType, linkage: ModuleType
+) -> None:
     """No pose on the grid goes beyond a range, and the nearest comes close to it."""
+    k = linkage.solve()
+    poses = [k.pose(*each) for each in strokes]
     tips = np.array([p.T for p in poses])
     pins = np.array([p.K for p in poses])
     assert tips[:, 1].max() == pytest.approx(values.DIGGING_HEIGHT.value, abs=1e-6)
@@ -136,9 +139,11 @@ def test_wall_depth_is_the_lowest_upright_floor(linkage: ModuleType, digger: Mod
     assert -min(found) == pytest.approx(values.WALL_DEPTH.value, rel=PERCENT / 100)
 
 
-def test_pins_keep_their_distances(poses: list[Any], linkage: ModuleType, values: ModuleType) -> None:
+def test_pins_keep_their_distances(
+    strokes: list[tuple[float, float, float]], linkage: ModuleType, values: ModuleType
+) -> None:
     k = linkage.solve()
-    for p in poses[::997]:
+    for p in (k.pose(*each) for each in strokes[::997]):
         assert np.hypot(*(p.B - k.A)) == pytest.approx(values.BOOM_LENGTH.value)
         assert np.hypot(*(p.K - p.B)) == pytest.approx(values.ARM_LENGTH.value)
         assert np.hypot(*(p.D - k.C)) == pytest.approx(p.boom)
@@ -149,9 +154,9 @@ def test_pins_keep_their_distances(poses: list[Any], linkage: ModuleType, values
         assert np.hypot(*(p.J - p.K)) == pytest.approx(np.hypot(*k.J))
 
 
-def test_no_dead_point_and_no_flip(poses: list[Any], linkage: ModuleType) -> None:
+def test_no_dead_point_and_no_flip(strokes: list[tuple[float, float, float]], linkage: ModuleType) -> None:
     k = linkage.solve()
-    assert min(min(k.margins(p)) for p in poses[::7]) > 0.25
+    assert min(min(k.margins(k.pose(*each))) for each in strokes[::7]) > 0.25
     lengths = np.linspace(linkage.BUCKET_MIN, linkage.BUCKET_MAX, 101)
     assert (np.diff([k.four_bar(float(c))[0] for c in lengths]) < 0).all()
     assert (np.diff([k.arm_angle(float(c)) for c in np.linspace(linkage.ARM_MIN, linkage.ARM_MAX, 101)]) < 0).all()

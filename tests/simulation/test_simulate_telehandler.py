@@ -13,7 +13,7 @@ from kit.builds import MadeOnce, without_pages
 from kit.machines.drawn_examples import built_example, drawn_example
 from yellowiron.pipeline import build
 from yellowiron.simulation import drive, run_tests, simulate
-from yellowiron.simulation.driving.result import driving_findings
+from yellowiron.simulation.driving.result import DrivingResult, driving_findings
 from yellowiron.simulation.registry import import_engine
 
 pytestmark = pytest.mark.slow
@@ -24,9 +24,13 @@ def file(made_once: MadeOnce) -> Path:
     return built_example("telehandler", made_once, "two")
 
 
-@pytest.mark.parametrize(
-    ("engine", "actuators"), [("mujoco", None), ("newton", ["telescope", "steering"]), ("physx", None)]
-)
+@pytest.fixture(scope="module")
+def driven(file: Path) -> DrivingResult:
+    return drive(file, engine="mujoco")
+
+
+# Newton's telescope is that of three sections, below.
+@pytest.mark.parametrize(("engine", "actuators"), [("mujoco", None), ("newton", ["steering"]), ("physx", None)])
 def test_full_strokes(file: Path, engine: str, actuators: list[str] | None) -> None:
     _strokes(file, engine, actuators)
 
@@ -51,15 +55,14 @@ def _strokes(file: Path, engine: str, actuators: list[str] | None) -> None:
     assert all(a.final_error_percent < 1.0 for a in result.actuators)
 
 
-def test_it_drives_on_all_wheels_and_steers_with_the_front_ones(file: Path) -> None:
-    result = drive(file, engine="mujoco")
-    in_engines.assert_straight(result)
-    assert result.lock is not None and math.radians(43.0) < result.lock < math.radians(49.0)
-    assert result.turning_radius == pytest.approx(result.geometry_radius, rel=0.02)
-    assert list(driving_findings(result)) == []
+def test_it_drives_on_all_wheels_and_steers_with_the_front_ones(driven: DrivingResult) -> None:
+    in_engines.assert_straight(driven)
+    assert driven.lock is not None and math.radians(43.0) < driven.lock < math.radians(49.0)
+    assert driven.turning_radius == pytest.approx(driven.geometry_radius, rel=0.02)
+    assert list(driving_findings(driven)) == []
 
 
-def test_steered_by_all_wheels_it_turns_in_little_more_than_half(made_once: MadeOnce, file: Path) -> None:
+def test_steered_by_all_wheels_it_turns_in_little_more_than_half(made_once: MadeOnce, driven: DrivingResult) -> None:
     folder = drawn_example("telehandler", made_once, "two")
 
     def fill(out: Path) -> None:
@@ -69,10 +72,10 @@ def test_steered_by_all_wheels_it_turns_in_little_more_than_half(made_once: Made
             build("telehandler", cad, out / "out", sheets=(sheet,), settings=("steering_mode=all",))
 
     every = made_once("telehandler_all_steered", fill) / "out" / "telehandler.usda"
-    one, all_ = (drive(each, engine="mujoco") for each in (file, every))
-    assert one.turning_radius is not None and all_.turning_radius is not None
+    all_ = drive(every, engine="mujoco")
+    assert driven.turning_radius is not None and all_.turning_radius is not None
     # Its four axes do not meet, steered as two wheels want it: where the middle is then, friction decides.
-    assert 0.5 < all_.turning_radius / one.turning_radius < 0.65
+    assert 0.5 < all_.turning_radius / driven.turning_radius < 0.65
 
 
 def test_it_lifts_its_rated_capacity_and_takes_the_time_that_is_printed(file: Path) -> None:

@@ -6,7 +6,7 @@ import json
 import shutil
 import threading
 import time
-from collections.abc import Callable, Iterator
+from collections.abc import Iterator
 from dataclasses import replace
 from pathlib import Path
 from types import SimpleNamespace
@@ -14,6 +14,7 @@ from typing import Any
 
 import pytest
 
+from kit.builds import without_pages
 from yellowiron.model.specification import Evidence, Specification, Specifications
 from yellowiron.report.html.viewer import NOT_BUNDLED
 from yellowiron.studio import Session, Setup
@@ -194,23 +195,23 @@ def test_a_build_writes_what_the_command_line_writes(
     assert built["state"] == "ready", built
     from yellowiron import build
 
-    machine = build(
-        "wheel_loader", example / "wheel_loader.step", tmp_path / "machine", sheets=[example / "specifications.pdf"],
-        alignment_file=copy,
-    )  # fmt: skip
+    with without_pages():
+        machine = build(
+            "wheel_loader", example / "wheel_loader.step", tmp_path / "machine",
+            sheets=[example / "specifications.pdf"], alignment_file=copy,
+        )  # fmt: skip
     for name in ("wheel_loader.usda", "scene.usda", "alignment.json", "specifications.json"):
         assert (session.setup.out / name).read_bytes() == (machine.folder / name).read_bytes(), name
 
 
-def test_the_server_says_where_it_is_and_ends(open_studio: Callable[[], Session]) -> None:
+def test_the_server_says_where_it_is_and_ends(example: Path, tmp_path: Path) -> None:
     import signal
     import subprocess
     import sys
     import urllib.request
 
-    session = open_studio()
-    command = [sys.executable, "-m", "yellowiron", "studio", "wheel_loader", "--cad", str(session.setup.cad),
-               "--out", str(session.setup.out), "--no-open"]  # fmt: skip
+    cad, out = str(example / "wheel_loader.step"), str(tmp_path / "machine")
+    command = [sys.executable, "-m", "yellowiron", "studio", "wheel_loader", "--cad", cad, "--out", out, "--no-open"]
     process = subprocess.Popen(command, stdout=subprocess.PIPE, stderr=subprocess.DEVNULL, text=True)
     try:
         assert process.stdout is not None

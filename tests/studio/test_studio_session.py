@@ -26,6 +26,7 @@ from yellowiron.studio.scene import Scene
 from yellowiron.studio.session import State
 from yellowiron.studio.twins import twins_of
 
+pytestmark = pytest.mark.usefixtures("no_pages")
 CAB = "WHEEL LOADER GA/REAR MACHINE/CAB ASSY ROPS"
 
 

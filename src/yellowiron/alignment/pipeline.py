@@ -45,6 +45,7 @@ from yellowiron.alignment.features.tracks import Track, tracks_of
 from yellowiron.alignment.files.decisions import decided
 from yellowiron.alignment.files.heard import heard_of_whole, unlikely
 from yellowiron.alignment.fusion.reading import AS_GOOD, fused
+from yellowiron.alignment.labelling.bystanders import doubted
 from yellowiron.alignment.labelling.coupler import with_couplers
 from yellowiron.alignment.labelling.fittings import fittings_of, sitting
 from yellowiron.alignment.labelling.place import pin_role
@@ -198,6 +199,7 @@ def align(
             ),
         ],
     )
+    found = doubted(found, assembly.parts)
     if edits is not None:
         found = replace(found, rules=edits.rules, joints=edits.joints, values=edits.values, machine=edits.machine)
         scored = name_scores(assembly.parts, every) if said.absent else []

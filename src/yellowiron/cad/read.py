@@ -18,7 +18,7 @@ Findings:
 | CAD010 | info     | names are not in a standard encoding, and which was taken                                  |
 | CAD011 | info     | a body of triangles without surfaces: its measures are theirs, its cylinders are fitted    |
 | CAD012 | info     | textures that could not be kept                                                            |
-| CAD013 | info     | meshes that hold several solids, or twins, were taken apart (`taken_apart`, `twins_apart`) |
+| CAD013 | info     | meshes of several solids, or of twins, were taken apart (`cad.mesh.split`)                 |
 | CAD014 | warning  | a format of another installed package that cannot be used                                  |
 """
 

@@ -33,15 +33,14 @@ def carried(
     wanted = {m.joint: targets.get(m.joint, np.zeros(count)) for m in held}
     steps = sampled(count, timestep)
     states = chain.sweep({joint: values[steps] for joint, values in wanted.items()})
-    for motion in held if states else ():
-        joint = chain.mechanism.joint(motion.joint)
-        if joint.drive is None or joint.drive.stiffness <= 0.0:
-            continue
-        sags = [weight(chain, state, motion.joint) / joint.drive.stiffness for state in states]
-        further = np.interp(np.arange(count), steps[: len(sags)], sags)
-        told[motion.joint] = wanted[motion.joint] + further
+    joints = [chain.mechanism.joint(motion.joint) for motion in held]
+    soft = [(j, j.drive.stiffness) for j in joints if j.drive is not None and j.drive.stiffness > 0.0]
+    # State by state: the linkage is brought to each once.
+    sags = np.array([[weight(chain, state, j.name) / stiffness for j, stiffness in soft] for state in states])
+    for number, (joint, _) in enumerate(soft if states else ()):
+        told[joint.name] = wanted[joint.name] + np.interp(np.arange(count), steps[: len(sags)], sags[:, number])
         if joint.lower is not None and joint.upper is not None:
-            told[motion.joint] = np.clip(told[motion.joint], joint.lower, joint.upper)
+            told[joint.name] = np.clip(told[joint.name], joint.lower, joint.upper)
     return told
 
 

@@ -118,14 +118,18 @@ class Annealing:
         self._is[p, self._rows, self.labels[:, p]] = 0.0
         scores = field.unary[p] + field.played * (self.played == 0)
         if p in self._astray:
-            scores += field.halves * np.tensordot(field.astray[p], self._is, 1)
+            scores += field.halves * (field.astray[p] @ self._is.reshape(len(self._is), -1)).reshape(scores.shape)
         scores += around[SAME] * self._same
         scores += around[JOINED] @ self._joined + around[ALIKE] @ self._twins + around[FARTHER] @ field.farther
         # What holding each joint would add: nothing where one holds it.
-        near = np.tile(field.held[0] * (self.near[:, :-1] <= 0), 2)
-        exact = np.tile(field.held[1] * (self.exact[:, :-1] <= 0), 2)
+        near = field.held[0] * (self.near[:, :-1] <= 0)
+        exact = field.held[1] * (self.exact[:, :-1] <= 0)
         flat = around.reshape(-1)
-        gain = near * np.minimum(flat.take(self._nearly), 1.0) + exact * np.minimum(flat.take(self._exactly), 1.0)
+        gain = np.minimum(flat.take(self._nearly), 1.0)
+        gain *= np.concatenate([near, near], axis=1)
+        more = np.minimum(flat.take(self._exactly), 1.0)
+        more *= np.concatenate([exact, exact], axis=1)
+        gain += more
         scores += gain @ self._gains
         self._last = around
         return np.asarray(scores)

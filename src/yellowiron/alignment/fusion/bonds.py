@@ -28,6 +28,8 @@ BESIDE = 2.0
 (ports, pipes along it, clamps), and no farther beyond its ends than this share of its length."""
 ENOUGH = 8.0
 """Of what is only called alike, or lies in one assembly, so many others say as much as any more would."""
+MOST = 0.6
+"""A cluster of more than this share of the machine's surface says nothing of what belongs together."""
 SMALL = 0.34
 """An assembly of more than this share of the pieces says nothing."""
 
@@ -72,7 +74,7 @@ def bonds_of(observation: Observation, pieces: Sequence[Piece], structure: Struc
     slides = _slides(pieces)
     kin = _kin(observation, pieces)
     gaps = _gaps(observation, pieces)
-    welded = {i: c for c, cluster in enumerate(structure.clusters) for i in cluster.members}
+    welded = _welded(observation, structure)
     stems = _stems(observation, pieces)
     twins = _mirrored(pieces, stance)
     pairs = [(piece_of[i], piece_of[j]) for i, j in observation.branches if i in piece_of and j in piece_of]
@@ -101,6 +103,14 @@ def bonds_of(observation: Observation, pieces: Sequence[Piece], structure: Struc
             )
         )  # fmt: skip
     return found
+
+
+def _welded(observation: Observation, structure: Structure) -> dict[int, int]:
+    """Solid → its cluster of what the contacts alone found, without clusters of most of the machine (`MOST`): of bodies
+    that slide on each other, and of pins that are not drawn, contacts make one."""
+    surface = [sum(observation.solids[i].surface for i in sorted(c.members)) for c in structure.clusters]
+    total = sum(s.surface for s in observation.solids)
+    return {i: c for c, cluster in enumerate(structure.clusters) if surface[c] <= MOST * total for i in cluster.members}
 
 
 def _stems(observation: Observation, pieces: Sequence[Piece]) -> dict[tuple[int, int], float]:

@@ -120,11 +120,16 @@ def _as_parts(stance: Stance, evidence: Evidence, template: Template) -> list[St
     said = clearly_named(evidence.pieces, evidence.scores) if evidence.trust > 0.0 else {}
     nearest = min((depths[b] for b in said.values() if b in depths), default=len(depths))
     rigid = {r.name for r in resolved.roles if r.rigid}
+
+    def surface(bodies: set[str]) -> float:
+        return sum(resolved.usual[b].area for b in sorted(bodies) if b in resolved.usual)
+
     found = []
     for depth in (d for d in PARTS if d <= nearest):
         far = networkx.Graph([pair for pair in ends if min(depths.get(b, 0) for b in pair) >= depth])
         groups: list[set[str]] = list(networkx.connected_components(far))
-        bodies = max(groups, key=lambda some: (len(some), sorted(some)), default=set[str]())
+        # Nobody draws a steered axle alone: what is drawn of a machine is the most of it that hangs together.
+        bodies = max(groups, key=lambda some: (surface(some), len(some), sorted(some)), default=set[str]())
         usual = [resolved.usual[b] for b in sorted(bodies) if b in resolved.usual]
         if usual and len(points):
             low, high = np.min([u.low for u in usual], axis=0), np.max([u.high for u in usual], axis=0)

@@ -57,7 +57,7 @@ CLEAR_LEAD = 12.0
 @dataclass(frozen=True, eq=False)
 class _Best:
     """The best labelling so far: its score, the variants chosen, the template with them, the labels of the leading
-    pieces, and what they were judged by."""
+    pieces (their numbers: `leading`), and what they were judged by."""
 
     score: float
     choices: dict[str, str]
@@ -65,6 +65,7 @@ class _Best:
     field: Field
     labels: np.ndarray
     votes: Votes
+    leading: tuple[int, ...]
 
     @property
     def played(self) -> set[str]:
@@ -115,11 +116,11 @@ def fused(
         last = found_so_far.get((evidence, id(resolved)))
         votes = last.votes if last is not None else evidence.votes(resolved)
         field = last.field if last is not None else _field(evidence, votes, resolved)
-        first = _labels_in(field, start) if start is not None else None
+        first = _labels_in(field, start, evidence.leading) if start is not None else None
         hot = HOT if start is None else WARM_UP
         labels, score = labelled(field, first, hot=hot, sweeps=sweeps, chains=chains)
         score += _lacking(evidence, field.bodies, labels, resolved)
-        found = _Best(score, chosen, resolved, field, labels, votes)
+        found = _Best(score, chosen, resolved, field, labels, votes, evidence.leading)
         # A longer annealing may end beside what a shorter one had found.
         found_so_far[evidence, id(resolved)] = max(last or found, found, key=lambda b: b.score)
         return found_so_far[evidence, id(resolved)]
@@ -138,9 +139,10 @@ def fused(
     best = max(likely, key=lambda b: b.score)
     best = tried(best.choices, best.template, evidence, chains=MANY)
     if more := _between_found(best, evidence):
+        # What is small is added to the machine that was found: alone it could outweigh what leads.
         wider = replace(evidence, leading=tuple(sorted({*evidence.leading, *more})))
-        found = tried(best.choices, best.template, wider, chains=MANY)
-        evidence, best = (wider, found) if found.score > best.score else (evidence, best)
+        best = tried(best.choices, best.template, wider, 0, 1, best)
+        evidence = wider
     tried_so = [(b.choices, b.score) for b in likely]
     as_good = open_choices(best.choices, tried_so, max(b.score for b in likely) - AS_GOOD)
     contacts = max(_score_of_contacts(answer, way) for way in ways)
@@ -196,11 +198,13 @@ def _field(evidence: Evidence, votes: Votes, resolved: Template) -> Field:
     return field_of([votes[k] for k in evidence.leading], evidence.between, resolved, weights(), lined)
 
 
-def _labels_in(field: Field, other: _Best) -> np.ndarray:
-    """Another variant's labels as those of a field with the same pieces: of the same bodies, or of none."""
+def _labels_in(field: Field, other: _Best, leading: Sequence[int]) -> np.ndarray:
+    """Another variant's labels as those of a field of the `leading` pieces: of the same bodies, or of none, as are
+    pieces that it did not have."""
     place = {body: n for n, body in enumerate(field.bodies)}
     told = [place.get(body, len(place)) for body in other.field.bodies]
-    return np.array([*told, len(place)])[other.labels]
+    labels = dict(zip(other.leading, np.array([*told, len(place)])[other.labels].tolist(), strict=True))
+    return np.array([labels.get(k, len(place)) for k in leading], dtype=np.int64)
 
 
 def _drawn(evidence: Evidence, bodies: Sequence[str], labels: np.ndarray, template: Template) -> set[str]:

@@ -36,6 +36,8 @@ CELL = 0.02
 """The ground is divided into cells of this share of the machine's size."""
 OUTER = 0.6
 """What a machine stands on is farther than this share of its stand's half width from the middle."""
+STEADY = 0.6
+"""A stand is at least so many times as long as it is wide, …"""
 WHEELS, BASE = 4, 0.1
 """So many wheels tell where a machine stands, if they are so far from each other, along and across, in sizes."""
 UPRIGHT = 2.0
@@ -110,7 +112,9 @@ def stance_of(solids: Sequence[Solid], size: float, hinges: Sequence[Floats] = (
     standing = points[np.abs(points @ up - (points @ up).min() - level * size) < SOLE * size]
     # A bucket may be as low: tracks are farther out than it is.
     aside = np.abs(standing @ left - 0.5 * ((standing @ left).min() + (standing @ left).max()))
-    standing = standing[aside >= OUTER * aside.max()]  # all of it, where it has no width
+    outer = standing[aside >= OUTER * aside.max()]  # all of it, where it has no width
+    # Nothing stands on two wheels: the third is in the middle.
+    standing = outer if np.ptp(outer @ forward) >= STEADY * np.ptp(outer @ left) else standing
     middle = 0.5 * (standing.min(axis=0) + standing.max(axis=0))
     return Stance(np.array([forward, left, up]), middle, size, likeness, told=facing.forward is not None)
 

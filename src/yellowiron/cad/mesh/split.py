@@ -1,6 +1,6 @@
 """Merged meshes taken apart: a machine that was exported as one mesh, or a mesh for every colour; hydraulic cylinders
-to the left and to the right that are one mesh; those that are drawn into other meshes; and one whose barrel and rod are
-one solid, cut where the rod comes out."""
+to the left and to the right that are one mesh, and such wheels; those that are drawn into other meshes; and one whose
+barrel and rod are one solid, cut where the rod comes out."""
 
 from __future__ import annotations
 
@@ -10,6 +10,7 @@ from collections.abc import Callable, Mapping, Sequence
 from dataclasses import replace
 
 import numpy as np
+from numpy.typing import NDArray
 
 from yellowiron.cad.mesh import copies, measures, shells
 from yellowiron.cad.mesh.assembly import pieces, shape_of
@@ -44,6 +45,11 @@ MOST_BARS = 40
 """A mesh of more bars than these is more than two halves of hydraulic cylinders."""
 IN_LINE = 0.999
 """Barrel and rod are parallel to 2.6°, by its cosine."""
+ROUNDED = 12
+"""A wheel has so many triangles at least."""
+SQUARE, OFF, FLAT = 0.05, 0.58, 0.8
+"""A wheel is as high as it is long but for this share, nothing of it is further from its axis than so many times that
+(a square's corner is 0.71), and it is no wider than this share of it."""
 THIN, THICK = 0.2, 0.95
 """A rod's radius over its barrel's, least and most."""
 
@@ -72,6 +78,16 @@ def twins_apart(assembly: Assembly) -> Assembly:
         other != key and _in_line(lines[key], lines[other]) for other in twins
     )}  # fmt: skip
     return _divided(assembly, paired, "hold the left and the right half of hydraulic cylinders: taken apart")
+
+
+def wheels_apart(assembly: Assembly) -> Assembly:
+    """The assembly with a part for each of two wheels on one axle that are one mesh, the left and the right one, that
+    nothing joins. The same object if there are none, or the file says what moves on what."""
+    if assembly.joints:
+        return assembly
+    used = sorted({part.shape for part in assembly.parts})
+    found = {key: meshes for key in used if (meshes := _wheels(assembly.shapes[key])) is not None}
+    return _divided(assembly, found, "hold the left and the right wheel of an axle: taken apart")
 
 
 def _lines(bars: Sequence[CylinderFeature], transform: Floats) -> Floats:
@@ -209,24 +225,52 @@ def _twins(shape: Shape) -> tuple[tuple[CylinderFeature, ...], list[Mesh]] | Non
         return None
     number = shells.solids(shape.mesh)
     corners = shape.mesh.points[shape.mesh.triangles]
-    size = float(np.linalg.norm(np.ptp(corners.reshape(-1, 3), axis=0)))
     for one, other in pairs:
         middle = 0.5 * (np.array(one.center) + np.array(other.center))
-        normal = np.array(other.center) - middle
-        normal /= np.linalg.norm(normal)
-        side = (corners - middle) @ normal
-        low, high = (np.full(int(number.max()) + 1, sign * np.inf) for sign in (1.0, -1.0))
-        np.minimum.at(low, number, side.min(axis=1))
-        np.maximum.at(high, number, side.max(axis=1))
-        if ((low < 0.0) & (high > 0.0)).any():
+        beyond = _mirrored(corners, number, middle, np.array(other.center) - middle)
+        if beyond is None:
             continue
-        beyond = side.mean(axis=1) > 0.0
-        near, far = corners[~beyond].reshape(-1, 3), corners[beyond].reshape(-1, 3)
-        far = far - 2.0 * np.outer((far - middle) @ normal, normal)
-        ends = [np.abs(end(near, axis=0) - end(far, axis=0)).max() for end in (np.min, np.max)]
-        length = float(np.ptp(near @ np.array(one.direction)))
-        if max(ends) < ALIKE * size and one.length > LONG * length:
+        length = float(np.ptp(corners[~beyond].reshape(-1, 3) @ np.array(one.direction)))
+        if one.length > LONG * length:
             return (one, other), [measures.chosen(shape.mesh, np.flatnonzero(rows)) for rows in (~beyond, beyond)]
+    return None
+
+
+def _mirrored(corners: Floats, number: NDArray[np.int64], middle: Floats, across: Floats) -> NDArray[np.bool_] | None:
+    """Which triangles (n,) are beyond a plane through `middle`, square to `across`, if those before it are as large and
+    no solid (`number`, by triangle) is on both sides; None otherwise. `corners` (n, 3, 3)."""
+    normal = across / np.linalg.norm(across)
+    side = (corners - middle) @ normal
+    low, high = (np.full(int(number.max()) + 1, sign * np.inf) for sign in (1.0, -1.0))
+    np.minimum.at(low, number, side.min(axis=1))
+    np.maximum.at(high, number, side.max(axis=1))
+    beyond: NDArray[np.bool_] = side.mean(axis=1) > 0.0
+    if ((low < 0.0) & (high > 0.0)).any() or beyond.all() or not beyond.any():
+        return None
+    near, far = corners[~beyond].reshape(-1, 3), corners[beyond].reshape(-1, 3)
+    far = far - 2.0 * np.outer((far - middle) @ normal, normal)
+    ends = [np.abs(end(near, axis=0) - end(far, axis=0)).max() for end in (np.min, np.max)]
+    return beyond if max(ends) < ALIKE * float(np.linalg.norm(np.ptp(corners.reshape(-1, 3), axis=0))) else None
+
+
+def _wheels(shape: Shape) -> list[Mesh] | None:
+    """The two meshes of a shape that is a wheel and its mirror image on one axis; None for any other."""
+    if shape.exact or len(shape.mesh.triangles) < 2 * ROUNDED:
+        return None
+    corners = shape.mesh.points[shape.mesh.triangles]
+    points = corners.reshape(-1, 3)
+    middle = 0.5 * (points.min(axis=0) + points.max(axis=0))
+    # A wheel is as high as it is long: its axis is the direction that the box is square to.
+    for k in range(3):
+        square = np.ptp(points, axis=0)[[(k + 1) % 3, (k + 2) % 3]]
+        if max(square) > (1.0 + SQUARE) * min(square):
+            continue
+        rim = np.linalg.norm((points - middle)[:, [(k + 1) % 3, (k + 2) % 3]], axis=1)
+        if rim.max() > OFF * max(square):
+            continue
+        beyond = _mirrored(corners, shells.solids(shape.mesh), middle, np.eye(3)[k])
+        if beyond is not None and np.ptp(corners[beyond][..., k]) < FLAT * max(square):
+            return [measures.chosen(shape.mesh, np.flatnonzero(rows)) for rows in (~beyond, beyond)]
     return None
 
 

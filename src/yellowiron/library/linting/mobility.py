@@ -7,8 +7,10 @@ joints are anywhere, save what the template says of their directions and sides. 
 
 from __future__ import annotations
 
+import functools
 from collections.abc import Collection, Iterable, Mapping, Sequence
 from dataclasses import dataclass, field
+from typing import NamedTuple
 
 import numpy as np
 
@@ -168,61 +170,80 @@ def welded_ends(template: Template, joints: Iterable[JointTemplate]) -> dict[str
     return {name: pair for name, pair in welded.items() if pair[0] != pair[1]}
 
 
+class _Link(NamedTuple):
+    """A joint of a planar group: the numbers of its bodies, whether it is held, and the number of the joint that it
+    follows, None where that is not in the group."""
+
+    type: str
+    ends: tuple[int, int]
+    held: bool
+    leader: int | None
+    ratio: float
+
+
 def _generic_freedom(
     bodies: tuple[str, ...],
-    joints: Iterable[JointTemplate],
+    joints: Sequence[JointTemplate],
     ends: Mapping[str, tuple[str, str]],
     *,
     held: frozenset[str] = frozenset(),
 ) -> int:
-    """Degrees of freedom of a planar group in general position, its first body and the joints `held` not moving: pivots
-    at random points, slides in random directions (any such set is a closed pose of links of some shape). The least of a
-    few samples, which is the generic value with probability 1."""
-    joints = list(joints)
+    """`_freedom` of a group's joints; those `held` do not move."""
+    body = {name: number for number, name in enumerate(bodies)}
+    joint = {j.name: number for number, j in enumerate(joints)}
+    return _freedom(
+        len(bodies),
+        tuple(
+            _Link(
+                j.type,
+                (body[ends[j.name][0]], body[ends[j.name][1]]),
+                j.name in held,
+                joint.get(j.follows.joint) if j.follows is not None else None,
+                j.follows.ratio if j.follows is not None else 0.0,
+            )
+            for j in joints
+        ),
+    )
+
+
+@functools.lru_cache(maxsize=1024)
+def _freedom(bodies: int, links: tuple[_Link, ...]) -> int:
+    """Degrees of freedom of a planar group in general position, its first body not moving: pivots at random points,
+    slides in random directions (any such set is a closed pose of links of some shape). The least of a few samples,
+    which is the generic value with probability 1. Most sets of choices have most groups in common."""
     random = np.random.default_rng(20240607)
-    columns = 3 * (len(bodies) - 1)
-    ranks = [
-        int(np.linalg.matrix_rank(_jacobian(bodies, joints, ends, held, random), tol=_RANK_TOLERANCE))
-        for _ in range(_SAMPLES)
-    ]
-    return columns - max(ranks)
+    ranks = [int(np.linalg.matrix_rank(_jacobian(bodies, links, random), tol=_RANK_TOLERANCE)) for _ in range(_SAMPLES)]
+    return 3 * (bodies - 1) - max(ranks)
 
 
-def _jacobian(
-    bodies: tuple[str, ...],
-    joints: Sequence[JointTemplate],
-    ends: Mapping[str, tuple[str, str]],
-    held: frozenset[str],
-    random: np.random.Generator,
-) -> Floats:
+def _jacobian(bodies: int, links: Sequence[_Link], random: np.random.Generator) -> Floats:
     """Rows: velocity constraints; columns: (vx, vy, ω) of every body but the first. Unit lengths."""
     rows: list[Floats] = []
-    moved: dict[str, Floats] = {}
-    for joint in joints:
+    moved: list[Floats] = []
+    for link in links:
         x, y = random.uniform(-1.0, 1.0, 2)
         angle = random.uniform(0.0, 2.0 * np.pi)
         along = np.array([np.cos(angle), np.sin(angle)])
         across = np.array([-along[1], along[0]])
         at = np.array([[1.0, 0.0, -y], [0.0, 1.0, x]])
-        if joint.name in held:
+        if link.held:
             local = np.eye(3)
-        elif joint.type == "prismatic":
+        elif link.type == "prismatic":
             local = np.vstack([across @ at, [0.0, 0.0, 1.0]])
-        elif joint.type == "distance":
+        elif link.type == "distance":
             local = (along @ at)[None, :]
         else:
             local = at
 
-        def block(of: Floats, pair: tuple[str, str] = ends[joint.name]) -> Floats:
-            made = np.zeros((len(of), 3 * len(bodies)))
-            for body, sign in zip(pair, (1.0, -1.0), strict=True):
-                start = 3 * bodies.index(body)
-                made[:, start : start + 3] += sign * of
+        def block(of: Floats, ends: tuple[int, int] = link.ends) -> Floats:
+            made = np.zeros((len(of), 3 * bodies))
+            for body, sign in zip(ends, (1.0, -1.0), strict=True):
+                made[:, 3 * body : 3 * body + 3] += sign * of
             return made
 
         rows.append(block(local))
-        moved[joint.name] = block((along @ at)[None, :] if joint.type == "prismatic" else np.eye(3)[2:])
-    for joint in joints:
-        if joint.follows is not None and joint.follows.joint in moved:
-            rows.append(moved[joint.name] - joint.follows.ratio * moved[joint.follows.joint])
+        moved.append(block((along @ at)[None, :] if link.type == "prismatic" else np.eye(3)[2:]))
+    rows += [
+        own - link.ratio * moved[link.leader] for own, link in zip(moved, links, strict=True) if link.leader is not None
+    ]
     return np.vstack(rows)[:, 3:]

@@ -53,7 +53,7 @@ def load(setup: Setup) -> NewtonEngine:
 
 
 class NewtonEngine:
-    """An `Engine`. MuJoCo steps in double precision, Newton's state is single.
+    """An `Engine`. MuJoCo steps in double precision; Newton's state, which follows it, is single.
 
     Poses are read from MuJoCo: Newton's, carried from joint to joint in single precision, are 5 µm off at the end of an
     excavator's arm, and a linkage shows that ten times larger.
@@ -68,7 +68,11 @@ class NewtonEngine:
             found = builder.add_usd(_without_fields(Usd.Stage.Open(world.layer)), load_visual_shapes=False)
             self._model: Any = builder.finalize(device="cpu")
             self._solver: Any = newton.solvers.SolverMuJoCo(
-                self._model, use_mujoco_cpu=True, integrator=integrator_of(setup.mechanism).lower(), cone="elliptic"
+                self._model,
+                use_mujoco_cpu=True,
+                integrator=integrator_of(setup.mechanism).lower(),
+                cone="elliptic",
+                update_data_interval=0,  # what MuJoCo has come to is its own, unrounded: it is not told back every step
             )
             self._states = [self._model.state(), self._model.state()]
             self._control: Any = self._model.control()
@@ -77,6 +81,10 @@ class NewtonEngine:
         places = self._solver.mjc_body_to_newton.numpy()[0].tolist()
         self._bodies = np.array([places.index(number) for number in self._numbers.values()])
         self._centers = self._model.body_com.numpy().astype(np.float64)
+        # Forces of no body are not handed over: a tenth of a step.
+        self._forces: Any = self._states[0].body_f
+        for state in self._states:
+            state.body_f = None
         self._pushed: set[int] = set()
         starts = {"position": self._model.joint_q_start.numpy(), "velocity": self._model.joint_qd_start.numpy()}
         self._drives = {
@@ -114,7 +122,8 @@ class NewtonEngine:
         row = self._rows[0][number].astype(np.float64)
         center = row[:3] + rotation_matrices(row[None, 3:])[0] @ self._centers[number]
         # Newton's wrench is a force, then a torque about the body's centre of mass.
-        self._states[0].body_f.numpy()[number] = np.concatenate([force, np.cross(np.asarray(point) - center, force)])
+        self._states[0].body_f = self._forces
+        self._forces.numpy()[number] = np.concatenate([force, np.cross(np.asarray(point) - center, force)])
         self._pushed.add(number)
 
     def step(self) -> None:
@@ -122,9 +131,10 @@ class NewtonEngine:
         before, after = self._states
         self._solver.step(before, after, self._control, None, self._timestep)
         mujoco.mj_kinematics(self._solver.mj_model, self._solver.mj_data)
-        for number in self._pushed:
-            before.body_f.numpy()[number] = 0.0
-        self._pushed.clear()
+        if self._pushed:
+            before.body_f = None
+            self._forces.numpy()[list(self._pushed)] = 0.0
+            self._pushed.clear()
         self._states = [after, before]
         self._rows.reverse()
         guard.beat()

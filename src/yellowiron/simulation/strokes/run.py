@@ -32,7 +32,7 @@ from yellowiron.usd import read_mechanism
 
 FINAL_BAR = 0.01
 """A cylinder ends within this share of its stroke from its target; a motor within ten times that of its speed."""
-_SOLVED = 0.008
+_SOLVED = 0.016
 """Seconds from one solved pose of the kinematics to the next; those of the steps between are led over."""
 _CHUNK = 50
 """Steps that are read at once: enough to make it quick, few enough for their states to stay in the processor's cache
