@@ -19,7 +19,12 @@ from OCP.BRepBuilderAPI import (
     BRepBuilderAPI_Transform,
 )
 from OCP.BRepOffsetAPI import BRepOffsetAPI_MakePipe
-from OCP.BRepPrimAPI import BRepPrimAPI_MakeCylinder, BRepPrimAPI_MakePrism, BRepPrimAPI_MakeRevol
+from OCP.BRepPrimAPI import (
+    BRepPrimAPI_MakeCylinder,
+    BRepPrimAPI_MakePrism,
+    BRepPrimAPI_MakeRevol,
+    BRepPrimAPI_MakeSphere,
+)
 from OCP.GC import GC_MakeArcOfCircle
 from OCP.gp import gp_Ax1, gp_Ax2, gp_Ax3, gp_Circ, gp_Dir, gp_Pnt, gp_Trsf, gp_Vec
 from OCP.ShapeUpgrade import ShapeUpgrade_UnifySameDomain
@@ -119,6 +124,11 @@ def turned(profile: Sequence[tuple[float, float]], origin: Vector = (0, 0, 0), a
 def rod(start: Vector, axis: Vector, radius: float, length: float) -> TopoDS_Shape:
     """A cylinder from `start` along `axis`."""
     return BRepPrimAPI_MakeCylinder(gp_Ax2(gp_Pnt(*start), gp_Dir(*axis)), radius, length).Shape()
+
+
+def ball(center: Vector, radius: float) -> TopoDS_Shape:
+    """A sphere."""
+    return BRepPrimAPI_MakeSphere(gp_Pnt(*center), radius).Shape()
 
 
 def ring(start: Vector, axis: Vector, outer: float, inner: float, length: float) -> TopoDS_Shape:

@@ -77,6 +77,18 @@ class Joints:
         along = np.array(end) - np.array(start)
         self._add("prismatic", barrel, piston, start, (float(along[0]), float(along[1]), float(along[2])))
 
+    def ball(self, a: str, b: str, at: Triple) -> None:
+        """`b` is on `a` by a ball."""
+        self._add("spherical", a, b, at, (0.0, 0.0, 1.0))
+
+    def ball_cylinder(self, name: str, side: str, ends: tuple[str, str], start: Triple, end: Triple) -> None:
+        """A cylinder between two balls."""
+        barrel, piston = f"{name}_cylinder_barrel{side}", f"{name}_piston_rod{side}"
+        self.ball(ends[0], barrel, start)
+        self.ball(ends[1], piston, end)
+        along = np.array(end) - np.array(start)
+        self._add("prismatic", barrel, piston, start, (float(along[0]), float(along[1]), float(along[2])))
+
     def slide(self, a: str, b: str, at: Triple, axis: Triple) -> None:
         """`b` slides on `a`, outwards along the axis."""
         self._add("prismatic", a, b, at, axis)

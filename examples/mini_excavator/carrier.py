@@ -3,17 +3,14 @@ millimetres."""
 
 from __future__ import annotations
 
-import functools
-import math
-
 from OCP.TopoDS import TopoDS_Shape
-from scipy.optimize import brentq
 
 from drawing.digger import Linkage
 from drawing.hardware import CLEARANCE, fit_pin, placed
 from drawing.planar import rot, vec
 from drawing.product import BLACK, GREY, STEEL, YELLOW, Assembly, Colour, Part
-from drawing.solids import Y, Z, bored, box, cut, fuse, mirrored, moved, plate, ring, rod, sheet_box, shift, turn
+from drawing.solids import Y, Z, bored, box, cut, fuse, mirrored, plate, ring, rod, sheet_box
+from drawing.track import DARK, Track
 from excavator.undercarriage import hollow
 from excavator.upper import casting
 
@@ -21,17 +18,10 @@ from . import values as v
 from .equipment import PIN
 from .linkage import BLADE_BARREL, BLADE_PIN, PIVOT, SWING_Z, Blade, Swing
 
-DARK: Colour = (0.16, 0.16, 0.17)
-HALF = v.TRACK_ON_GROUND.value / 2
-RUN, TURN = 10, 4
-"""Links of a level run, and around a wheel."""
-PITCH = 2 * HALF / RUN
-PITCH_R = PITCH / (2 * math.sin(math.pi / (2 * TURN)))
-EYE, TRACK_PIN = 16.0, 8.0
-SIDE_Y = v.TRACK_GAUGE.value / 2
-ROLLER, CARRIER = 35.0, 25.0
-ROLLER_X = (180.0, -180.0)
-"""Front to rear."""
+TRACK = Track(
+    v.TRACK_ON_GROUND.value / 2, 10, 4, v.TRACK_GAUGE.value, v.SHOE_WIDTH.value, v.TRACK_LENGTH.value, (180.0, -180.0),
+    35.0, (0.0,), 25.0, "undercarriage",
+)  # fmt: skip
 DECK, FLOOR = 330.0, 390.0
 """Top of the centre frame, underside of the revolving frame."""
 BEARING = (150.0, 179.0, 180.0, 225.0)
@@ -43,88 +33,6 @@ LUGS = ((410.0, 443.0), (547.0, 580.0))
 SWING_PIN = 22.0
 
 
-# ---- track --------
-def _reach(out: float) -> float:
-    """How far the shoes around a wheel reach from its axis, level, for a shoe's height below its pins."""
-    angle = math.pi / (2 * TURN)
-    level = PITCH_R * math.cos(angle) + out
-    return max(level * math.cos(a) + 0.45 * PITCH * math.sin(a) for a in (angle, 3 * angle))
-
-
-@functools.cache
-def shoe_depth() -> float:
-    """From a shoe's pins to its grouser: what the published length over the tracks takes."""
-    over = v.TRACK_LENGTH.value / 2 - HALF
-    return float(brentq(lambda out: _reach(out) - over, 10.0, 80.0, xtol=1e-12))
-
-
-def axle() -> float:
-    """Height of the sprocket's and idler's axes."""
-    return shoe_depth() + PITCH_R
-
-
-def rollers() -> dict[str, list[tuple[float, float]]]:
-    """Axes (x, z) of a side's rollers, front to rear."""
-    low, high = shoe_depth() + EYE + ROLLER + 1, axle() + PITCH_R - EYE - CARRIER - 1
-    return {"track_roller": [(x, low) for x in ROLLER_X], "carrier_roller": [(0.0, high)]}
-
-
-def track_pins() -> list[tuple[float, float]]:
-    """A side's pins (x, z), from the rear of the ground run forward and around."""
-    z, r, step = axle(), PITCH_R, math.pi / TURN
-    pins = [(-HALF + i * PITCH, z - r) for i in range(RUN)]
-    around = [(r * math.cos(i * step - math.pi / 2), r * math.sin(i * step - math.pi / 2)) for i in range(TURN)]
-    pins += [(HALF + x, z + up) for x, up in around]
-    pins += [(HALF - i * PITCH, z + r) for i in range(RUN)]
-    return pins + [(-HALF - x, z - up) for x, up in around]
-
-
-def _shoe() -> Part:
-    """A link with its shoe, in the frame of its rear pin, which it carries; the ground is towards -z."""
-    out, half, p = shoe_depth(), v.SHOE_WIDTH.value / 2, PITCH
-    sole = box(0.05 * p, 0.95 * p, -half, half, -out, 8 - out)
-    cheek: list[tuple[float, float, float]] = [(0, 0, EYE), (10, 8 - out, 0), (p - 30, 8 - out, 0)]
-    cheeks = [plate(cheek, "xz", a, a + 12) for a in (22.0, -34.0)]
-    tongue = plate([(p, 0, EYE), (30, 8 - out, 0), (p - 6, 8 - out, 0)], "xz", -20, 20)
-    tongue = bored(tongue, Y, ((p, 0, 0), TRACK_PIN + 0.3))
-    tongue = cut(tongue, rod((0, -30, 0), Y, EYE + 1, 60))
-    bar = rod((0, -34, 0), Y, TRACK_PIN, 68)
-    return Part("TRACK SHOE 180", fuse(sole, *cheeks, tongue, bar), DARK)
-
-
-def _wheel(radius: float, bore: float, width: float) -> TopoDS_Shape:
-    return ring((0, -width / 2, 0), Y, radius, bore, width)
-
-
-def _track(letter: str, sign: float) -> Assembly:
-    """One side: shoes, wheels on their axles, and the two plates of its frame."""
-    tree = Assembly(f"TRACK {letter.upper()}H")
-    y, body = sign * SIDE_Y, "undercarriage"
-    shoe, pins = _shoe(), track_pins()
-    for i, (a, b) in enumerate(zip(pins, pins[1:] + pins[:1], strict=True)):
-        tilt = -math.degrees(math.atan2(b[1] - a[1], b[0] - a[0]))
-        tree.add(shoe, f"track_shoe_{letter}_{i + 1}", at=shift(a[0], y, a[1]).Multiplied(turn(Y, tilt)))
-    tooth = box(-12, 12, -14, 14, 60, 106)
-    teeth = [moved(tooth, turn(Y, 360.0 * (i + 0.5) / (2 * TURN))) for i in range(2 * TURN)]
-    hub = fuse(_wheel(PITCH_R - EYE - 4, 18.2, 36), *teeth)
-    places = [(f"sprocket_{letter}", Part("SPROCKET", hub, DARK), -HALF, axle(), 18.0)]
-    places.append((f"idler_{letter}", Part("IDLER", _wheel(PITCH_R - EYE - 1, 18.2, 40), DARK), HALF, axle(), 18.0))
-    for row, radius in (("track_roller", ROLLER), ("carrier_roller", CARRIER)):
-        part = Part(row.upper().replace("_", " "), _wheel(radius, 10.2, 52), DARK)
-        for i, (x, z) in enumerate(rollers()[row]):
-            places.append((f"{row}_{letter}_{i + 1}", part, x, z, 10.0))
-    (_, low), (_, high) = rollers()["track_roller"][0], rollers()["carrier_roller"][0]
-    outline: list[tuple[float, float, float]] = [(-HALF, axle(), 46), (ROLLER_X[1], low, 22), (ROLLER_X[0], low, 22)]
-    frame = plate([*outline, (HALF, axle(), 46), (0, high, 22)], "xz", 30, 42)
-    for role, part, x, z, bore in places:
-        tree.add(part, role, at=shift(x, y, z))
-        tree.add(Part(f"AXLE D{2 * bore:g}", rod((x, y - 42, z), Y, bore, 84), STEEL), body)
-        frame = cut(frame, rod((x, 0, z), Y, bore, 60))
-    tree.add(Part("TRACK FRAME PL", frame, DARK), body, at=shift(0, y, 0))
-    tree.add(Part("TRACK FRAME PL", mirrored(frame), DARK), body, at=shift(0, y, 0))
-    return tree
-
-
 def draw_undercarriage(hardware: Assembly) -> Assembly:
     """Centre frame between the tracks, the bearing's inner race, the lugs of the blade."""
     tree, body = Assembly("UNDERCARRIAGE"), "undercarriage"
@@ -133,8 +41,8 @@ def draw_undercarriage(hardware: Assembly) -> Assembly:
     side = [(-230.0, belly), (200.0, belly), (200.0, step), (90.0, step), (90.0, DECK), (-230.0, DECK)]
     centre = hollow([(x, z, 0.0) for x, z in side], "xz", -160.0, 160.0, 8.0)
     tree.add(Part("CENTRE FRAME", centre, DARK), body)
-    for y in (-SIDE_Y + 42, 160.0):
-        tree.add(Part("X BEAM", sheet_box(-150, 150, y, y + SIDE_Y - 202, 120, 200, 8.0), DARK), body)
+    for y in (-TRACK.side + 42, 160.0):
+        tree.add(Part("X BEAM", sheet_box(-150, 150, y, y + TRACK.side - 202, 120, 200, 8.0), DARK), body)
     race = ring((0, 0, DECK), Z, outer, inner, FLOOR - DECK - 12)
     tree.add(Part("SWING BEARING INNER RACE", race, STEEL), body, "swing_bearing")
     wx, wz = BLADE_PIN
@@ -148,7 +56,7 @@ def draw_undercarriage(hardware: Assembly) -> Assembly:
     fit_pin(hardware, (wx, -170, wz), PIN, 340, body, "blade_pin")
     fit_pin(hardware, (bx, -50, bz), 25.0, 100, body, "blade_cylinder_barrel_pin")
     for letter, sign in (("l", 1.0), ("r", -1.0)):
-        tree.add(_track(letter, sign))
+        tree.add(TRACK.draw_side(letter, sign))
     return tree
 
 

@@ -16,23 +16,13 @@ from drawing.product import Assembly, extent, farthest, occurrences
 from drawing.truth import CadFrame, value_rows
 
 from . import values as v
-from .carrier import FLOOR, HALF, SIDE_Y, axle, rollers, track_pins
+from .carrier import FLOOR, TRACK
 from .equipment import floor_angle
 from .linkage import BLADE_BARREL, BLADE_PIN, PIVOT, STROKES, SWING_Z, ranges, solve_blade, solve_swing
 
 Y, Z = (0.0, 1.0, 0.0), (0.0, 0.0, 1.0)
 FRAME = CadFrame((0.0, 0.0, FLOOR), x=(0.0, 1.0, 0.0), z=(0.0, 0.0, 1.0))
 """From the swing axis at the revolving frame's underside: x to the left, y backward, z up."""
-
-
-def track_bodies() -> list[str]:
-    """Bodies of their own where every shoe is one; otherwise they move with the undercarriage."""
-    out: list[str] = []
-    for letter in "lr":
-        out += [f"sprocket_{letter}", f"idler_{letter}"]
-        out += [f"{row}_{letter}_{i + 1}" for row, places in rollers().items() for i in range(len(places))]
-        out += [f"track_shoe_{letter}_{i + 1}" for i in range(len(track_pins()))]
-    return out
 
 
 def joints(k: Linkage, pose: Pose, drawn: dict[str, Cylinder]) -> dict[str, dict[str, Any]]:
@@ -94,15 +84,15 @@ def joints(k: Linkage, pose: Pose, drawn: dict[str, Cylinder]) -> dict[str, dict
     pivot("undercarriage", "blade_cylinder_barrel", BLADE_BARREL)
     pivot("blade", "blade_piston_rod", blade_rod)
     slide("blade", BLADE_BARREL, blade_rod)
-    for letter, y in (("l", SIDE_Y), ("r", -SIDE_Y)):
+    for letter, y in (("l", TRACK.side), ("r", -TRACK.side)):
         shoes = {"tracks": "shoes"}
-        for body, x in ((f"sprocket_{letter}", -HALF), (f"idler_{letter}", HALF)):
-            add(("undercarriage", body), (x, y, axle()), when=shoes)
-        for row, places in rollers().items():
+        for body, x in ((f"sprocket_{letter}", -TRACK.half), (f"idler_{letter}", TRACK.half)):
+            add(("undercarriage", body), (x, y, TRACK.axle), when=shoes)
+        for row, places in TRACK.rollers().items():
             for i, (x, z) in enumerate(places, 1):
                 name = f"undercarriage2{row}_{letter}_joint_{i}"
                 add(("undercarriage", f"{row}_{letter}_{i}"), (x, y, z), name=name, when=shoes)
-        shoe, pins = f"track_shoe_{letter}", track_pins()
+        shoe, pins = f"track_shoe_{letter}", TRACK.pins()
         for i in range(1, len(pins) + 1):
             after = i % len(pins) + 1
             x, z = pins[after - 1]
@@ -166,7 +156,7 @@ def truth(root: Assembly, k: Linkage, pose: Pose, drawn: dict[str, Cylinder]) ->
     return {
         "about": "CAD frame, metres; parts, bodies and joints as in the excavator's truth.",
         "frame": FRAME.matrix(),
-        "undercarriage_with": track_bodies(),
+        "undercarriage_with": TRACK.bodies(),
         "joints": joints(k, pose, drawn),
         "parts": {leaf.path: {"body": leaf.body, "role": leaf.role} for leaf in occurrences(root)},
         "cylinders": {f"{n}_cylinder_barrel2{n}_piston_rod_joint": c.slide() for n, c in drawn.items()},

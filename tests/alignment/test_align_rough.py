@@ -12,8 +12,8 @@ from kit.machines.defects import drawn, merged_bodies, no_pins
 from kit.machines.solids import plate, tube
 from kit.machines.synthetic import Machine, disguise
 from yellowiron.alignment import align
+from yellowiron.alignment.copies import copies_of
 from yellowiron.alignment.features.contacts import fits_of
-from yellowiron.alignment.features.copies import copies_of
 from yellowiron.alignment.features.distance import Touch
 from yellowiron.alignment.features.solids import Cyl, coaxial, solids_of
 from yellowiron.alignment.features.tracks import tracks_of

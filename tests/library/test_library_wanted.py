@@ -20,13 +20,14 @@ from yellowiron.support.units import SI_UNIT
 
 LANGUAGES = {"en", "de", "fr", "es", "zh", "ja"}
 TYPES = library.list_templates()
-SHEET_ONLY = {"dozer", "grader", "mobile_crane"}
+SHEET_ONLY = {"grader", "mobile_crane"}
 
 
 def test_which_types_there_are() -> None:
     assert set(TYPES) == SHEET_ONLY | {
         "articulated_dump_truck",
         "backhoe_loader",
+        "dozer",
         "rigid_dump_truck",
         "roller",
         "wheel_loader",

@@ -35,8 +35,8 @@ from yellowiron.alignment.assignment.sheet_weights import sheet_findings
 from yellowiron.alignment.assignment.weights import side_weights
 from yellowiron.alignment.axes.levers import without_lever
 from yellowiron.alignment.axes.unfound import axis_findings, lines_of, rough_axes, unfound_axes
+from yellowiron.alignment.copies import copies_of
 from yellowiron.alignment.facing import Facing
-from yellowiron.alignment.features.copies import copies_of
 from yellowiron.alignment.features.distance import Touch, touch_of
 from yellowiron.alignment.features.separate_parts import separate_parts
 from yellowiron.alignment.features.solids import solids_of

@@ -24,6 +24,8 @@ KIN012  a driven joint is drawn outside its limits, or a follower off its place;
 KIN013  an axis that nothing drawn shows was placed by published dimensions: by which, and how well
 KIN014  a published dimension cannot be met wherever the axes that nothing drawn shows may be
 KIN015  with the template's pressure a cylinder could not hold the machine's own weight; its force was raised
+KIN016  the stroke of a driven cylinder ends early, where its twin on the other side is at the end of its own
+KIN017  the drives of a linkage with balls do not determine it in the drawn pose
 ======  ========================================================================================================
 """
 

@@ -13,8 +13,10 @@ from yellowiron.kinematics.solver.branches import branch_pivots, branch_sines
 from yellowiron.kinematics.solver.chain import ClosedChain, Component, State
 from yellowiron.kinematics.solver.independence import independent_joints, suspects
 from yellowiron.kinematics.solver.pose_grid import PoseGrid, explore, joint_values
+from yellowiron.kinematics.spatial_hints import locked_hint
 from yellowiron.kinematics.strength import carried, rated_load, strong_enough, weight
 from yellowiron.kinematics.tolerances import PINS_APART
+from yellowiron.kinematics.twins import end_with_twins, twins_out_of_stroke
 from yellowiron.model.finding import Finding
 from yellowiron.model.geometry import Floats
 from yellowiron.model.mechanism import PROVISIONAL, STATED, Drive, Joint, Mechanism, Mobility, Site
@@ -29,8 +31,6 @@ STRAIGHT = 0.05
 """|sine| at a triangle of pivots below which a loop is too near its dead point to have a branch."""
 _BACK = 2e-3
 """Metres or radians by which a limit that was drawn in stands back from the dead point."""
-_EVEN = 1e-3
-"""Metres by which a passive twin may go past its own stroke."""
 _FLAT = 1e-6
 """|sine| of a drawn triangle of pivots that is none: its loop has no branch."""
 _OWN, _OTHERS = 13, 25
@@ -76,21 +76,25 @@ def complete(mechanism: Mechanism) -> Mechanism:
 
     Findings: KIN001 stroke past a dead point, KIN002 unreachable combination of strokes, KIN003 branch, KIN004 passive
     twin out of stroke, KIN005 mobility, KIN006 stated limit against the loop's, KIN007 drive without force or speed,
-    KIN008 pins out of parallel, KIN009 no ends of stroke, KIN015 too weak for its own weight.
+    KIN008 pins out of parallel, KIN009 no ends of stroke, KIN015 too weak for its own weight, KIN016 stroke that
+    ends with its twin's, KIN017 drives that do not determine a linkage in space.
     Raises `MechanismError` where the joints are no tree with cuts.
     """
     chain = ClosedChain(mechanism)
     work = _Work(chain, {joint.name: joint for joint in mechanism.joints})
     whole, mechanism = mechanism, chain.mechanism
     mobility = _mobility(mechanism, work)
-    grids = [explore(chain, ranges) for ranges in _ranges(work)]
+    ranges = _ranges(work)
+    for component, own in zip(chain.components(), ranges, strict=True):
+        work.findings += end_with_twins(chain, component, own, work.joints)
+    grids = [explore(chain, own) for own in ranges]
     placed = [chain.placements(grid.states) for grid in grids]
     for component, grid in zip(chain.components(), grids, strict=True):
         _report_unreachable(grid, work)
         _report_gap(component, grid, work)
     for component, grid, (rotations, _) in zip(chain.components(), grids, placed, strict=True):
         _limit(component, grid, rotations, work)
-    _check_twins(mechanism, work)
+    work.findings += twins_out_of_stroke(mechanism, work.joints, SLIDE_MARGIN)
     loops = _branches(mechanism, grids, placed, work)
     work.findings += strong_enough(chain, grids, work.joints)
     _gains(mechanism, grids, work, ringed=bool(whole.floating))
@@ -107,9 +111,10 @@ def _mobility(mechanism: Mechanism, work: _Work) -> Mobility:
     freedom = {"fixed": 0, "revolute": 1, "prismatic": 1, "spherical": 3, "distance": 0}
     tree = sum(freedom[joint.type] for joint in mechanism.joints if not joint.cut)
     grubler = tree - sum(_PER_FREEDOM[joint.type] for joint in mechanism.joints if joint.cut)
-    grubler -= sum(joint.follows is not None for joint in mechanism.joints)
+    grubler -= sum(joint.follows is not None for joint in mechanism.joints) + len(work.chain.spins)
     held = [name for name in work.chain.idle if work.joints[name].held]
-    mobility = Mobility(work.chain.degrees_of_freedom - len(held), len(independent_joints(mechanism)), grubler)
+    expected = sum(freedom[work.joints[name].type] for name in independent_joints(mechanism))
+    mobility = Mobility(work.chain.degrees_of_freedom - len(held), expected, grubler)
     if mobility.computed != mobility.expected:
         more = mobility.computed > mobility.expected
         work.find(
@@ -120,7 +125,16 @@ def _mobility(mechanism: Mechanism, work: _Work) -> Mobility:
             f"{mobility.expected}",
             f"Nothing holds: {', '.join(n for n in work.chain.idle if n not in held) or 'a body'}."
             if more
-            else suspects(mechanism) or "A pivot is missing: a loop is locked.",
+            else suspects(mechanism) or locked_hint(mechanism),
+        )
+    elif not work.chain.plain and work.chain.undetermined:
+        work.find(
+            "KIN017",
+            "error",
+            mechanism.name,
+            f"as drawn its drives do not determine it: {work.chain.undetermined} of its {mobility.computed} degrees of "
+            "freedom is left with all of them held",
+            "A cylinder, brace or link acts through an axis that it should turn about: check their places.",
         )
     return mobility
 
@@ -226,24 +240,6 @@ def _limit(component: Component, grid: PoseGrid, rotations: Floats, work: _Work)
 
 def _text(value: float, joint: Joint) -> str:
     return f"{1e3 * value:.1f} mm" if joint.type == "prismatic" else f"{math.degrees(value):.2f}°"
-
-
-def _check_twins(mechanism: Mechanism, work: _Work) -> None:
-    """A passive twin must stay within its own stroke while the driven one uses all of its own."""
-    for cylinder in mechanism.cylinders:
-        slide = work.joints.get(cylinder.slide)
-        if not cylinder.passive or slide is None or slide.lower is None or slide.upper is None:
-            continue
-        short = -cylinder.extension - (slide.lower + SLIDE_MARGIN)
-        long = (slide.upper - SLIDE_MARGIN) - (cylinder.stroke - cylinder.extension)
-        if max(short, long) > _EVEN:
-            work.find(
-                "KIN004",
-                "warning",
-                cylinder.slide,
-                f"the twin cylinder would have to go {1e3 * max(short, long):.1f} mm past its own stroke",
-                "Check stroke, closed length and the pins of both cylinders.",
-            )
 
 
 def _branches(mechanism: Mechanism, grids: list[PoseGrid], placed: list[tuple[Floats, Floats]], work: _Work) -> Any:

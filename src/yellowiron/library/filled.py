@@ -79,6 +79,8 @@ def _further(joint: JointTemplate) -> dict[str, Any]:
         entry["free"] = "Y"
     if joint.ring:
         entry["ring"] = "Y"
+    if joint.direction is not None:
+        entry["direction"] = joint.direction.capitalize()
     if joint.follows is not None:
         entry["follows"] = _coupled(joint.follows, SI_UNIT[DIMENSION[joint.type]])
     for key, when in (("when", joint.when), ("drive_when", joint.drive_when)):

@@ -21,7 +21,7 @@ from yellowiron.mechanism.joints import chains
 from yellowiron.mechanism.joints.followers import with_followers
 from yellowiron.mechanism.joints.frames import JointFrame, joint_frames, weld
 from yellowiron.mechanism.joints.planarity import follow_first, make_parallel
-from yellowiron.mechanism.joints.tree import Tree, links, loop_groups, loose_bodies
+from yellowiron.mechanism.joints.tree import Tree, links, loop_groups, loose_bodies, planar_loops
 from yellowiron.mechanism.placement import Placement, ancestors, place
 from yellowiron.model.alignment import Alignment
 from yellowiron.model.assembly import Assembly
@@ -81,7 +81,7 @@ def build_mechanism(
     frames = _weld_loose(frames, placement, template, floating, findings)
     tree = chains.span(template.root, floating, links(template, frames))
     findings += _uncuttable(tree, frames)
-    frames, remarks = make_parallel(frames, loop_groups(tree.loops))
+    frames, remarks = make_parallel(frames, loop_groups(planar_loops(tree.loops, frames)))
     findings += remarks
     frames, remarks = follow_first(frames, sorted(direct, key=lambda name: tree.bodies.index(tree.sides[name][1])))
     findings += remarks

@@ -128,6 +128,15 @@ class Placement:
             self._joined[wanted] = join(self._features_of(row) for row in wanted)
         return self._joined[wanted]
 
+    def spheres(self, row: int) -> list[tuple[Floats, float, bool]]:
+        """Balls and sockets of one part, machine frame: middle (3,), radius, whether it is a socket."""
+        matrix = self.transforms[row]
+        scale = abs(float(np.linalg.det(matrix[:3, :3]))) ** (1 / 3)
+        return [
+            (matrix[:3, :3] @ np.array(s.center) + matrix[:3, 3], s.radius * scale, s.inner)
+            for s in self.shapes[row].spheres
+        ]
+
     def points(self, row: int) -> Floats:
         """(n, 3) mesh points of one part, machine frame."""
         if row not in self._points:

@@ -20,6 +20,8 @@ from yellowiron.model.mechanism import Site
 from yellowiron.model.template import SiteTemplate, Template
 from yellowiron.support.vectors import clean_triple
 
+_END = 0.02
+"""Share of a body's width that is its left or right end."""
 _EDGE = 5e-4
 """Points this near to the farthest one belong to the edge, metres."""
 _ALIKE = 1e-3
@@ -73,6 +75,8 @@ def _site(
         return _foremost_site(entry, placement)
     if "heel" in rule:
         return _heel_site(entry, placement)
+    if "corner" in rule:
+        return _corner_site(entry, placement)
     name = next((rule[key] for key in ("joint", "along", "pointing", "edge_from", "inside_from") if key in rule), "")
     if isinstance(name, tuple):
         name = next((each for each in name if each in frames), name[0])
@@ -125,6 +129,23 @@ def _foremost_site(entry: SiteTemplate, placement: Placement) -> Site:
     middle = 0.5 * (low[ahead].min(axis=0) + high[ahead].max(axis=0))
     source = f"middle of {_named(ahead, placement)}, the foremost"
     return Site(entry.name, entry.body, clean_triple(middle), source=source)
+
+
+def _corner_site(entry: SiteTemplate, placement: Placement) -> Site:
+    """Of a body's points near its left or right end the one farthest down and ahead, whichever way it is pitched: a
+    blade's corner; or midway between both."""
+    points = placement.points_of(placement.rows_of_body(entry.body))
+    across = points[:, 1]
+    near = _END * float(across.max() - across.min())
+    ends = {"l": points[across >= across.max() - near], "r": points[across <= across.min() + near]}
+    corners = {}
+    for side, end in ends.items():
+        ahead = end[:, 0] - end[:, 2]
+        tip = end[ahead >= ahead.max() - _EDGE]
+        corners[side] = tip[np.argmax(tip[:, 1] if side == "l" else -tip[:, 1])]
+    which = str(entry.rule["corner"])
+    position = corners[which] if which in corners else 0.5 * (corners["l"] + corners["r"])
+    return Site(entry.name, entry.body, clean_triple(position), source=f"corner of '{entry.body}': {which}")
 
 
 def _foremost(body: str, share: float, placement: Placement) -> list[int]:

@@ -107,6 +107,16 @@ class PlaneFeature:
     area: float
 
 
+@dataclass(frozen=True)
+class SphereFeature:
+    """One spherical face set: `center`, `radius`, `area` (m²); `inner` is true for a socket (material outside)."""
+
+    center: tuple[float, float, float]
+    radius: float
+    inner: bool
+    area: float
+
+
 @dataclass(frozen=True, eq=False)
 class Shape:
     """One distinct solid (or sheet) of a CAD file, shared by all its occurrences. Own frame, metres.
@@ -133,3 +143,4 @@ class Shape:
     bounds: Floats = field(default_factory=lambda: np.zeros((2, 3)))
     knuckles: tuple[CylinderFeature, ...] = ()
     finishes: tuple[Finish, ...] = ()
+    spheres: tuple[SphereFeature, ...] = ()

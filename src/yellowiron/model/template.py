@@ -13,6 +13,7 @@ from yellowiron.model.sensor import SensorTemplate
 JointType = Literal["fixed", "distance", "spherical", "revolute", "prismatic"]
 DriveType = Literal["linear", "angular"]
 Coupling = Literal["chain", "gear", "rope", "oil"]
+Direction = Literal["lengthwise", "lateral", "vertical"]
 Choices = Mapping[str, tuple[str, ...]]
 """Variant name → the choices under which an entry exists; empty: always."""
 UNDECIDED = "undecided"
@@ -82,10 +83,9 @@ class JointTemplate:
     """A joint entry. `parts` are role names as written in `Body`; limits are numbers (metres, radians), texts naming a
     specification (with an optional leading minus), or None (free). Gains in SI (N/m, N·m/rad …) or None: computed.
     `ring`: of a joint along a row (`shoe[i]`, `shoe[i+1]`), the last part is joined to the first; such a ring is joined
-    to nothing else and touches the machine only. `follows`: another joint leads it, and nothing drives it.
-
-    `documents`: where a user's document, not the template, says what the entry joins (`joint`) or its limits (`limit`),
-    that document's file name.
+    to nothing else and touches the machine only. `follows`: another joint leads it, and nothing drives it. `direction`:
+    its axis as drawn. `documents`: the file name of the user's document that says what it joins (`joint`) or its limits
+    (`limit`).
     """
 
     name: str
@@ -104,6 +104,7 @@ class JointTemplate:
     documents: Mapping[str, str] = field(default_factory=dict)
     ring: bool = False
     follows: Follows | None = None
+    direction: Direction | None = None
 
 
 @dataclass(frozen=True)

@@ -21,6 +21,8 @@ from yellowiron.support.vectors import unit
 
 RUN = 0.05
 """Shoes this near to the lowest, as a share of the track's height, are on the ground."""
+_EVEN_RUN = 0.005
+"""Shoes this near to the middle of those, as a share of the same, lie flat: those next to the wheels already rise."""
 LYING = 0.01
 """Axles within this sine lie in a plane, and wheels within this share of their radius stand on one."""
 _ALIKE_WHEELS, _LEVELLED = 0.02, 4
@@ -74,14 +76,16 @@ def machine_frame(
     """The frame: up along the axis about which the machine turns or bends, left along the root's wheels or across its
     tracks, forward towards the working arms; and as a person said that it faces (`facing`). What is not there is
     guessed, and said so."""
-    axes = {j: structure.axes[structure.hinges[h].axis] for j, h in solution.hinge_of.items()}
+    # A ball's pin points anywhere.
+    turned_about = {j: h for j, h in solution.hinge_of.items() if template.joint(j).type != "spherical"}
+    axes = {j: structure.axes[structure.hinges[h].axis] for j, h in turned_about.items()}
     cluster_of = {b: c for c, b in solution.body_of.items()}
     turning = [structure.clusters[c] for _, c in sorted(cluster_of.items())]
     rolling = [wheels[cluster.number] for cluster in turning if cluster.kind == "wheel"]
     kinds = {r.name: r.kind for r in template.roles}
     scene = _Scene(solids, structure, template, wheels, tracks, axes, cluster_of, kinds, rolling)
     doubts: list[str] = []
-    flat = _ground_normal(scene) if not tracks else np.cross(tracks[0].axis, tracks[0].along)
+    flat = _ground_normal(scene) if not tracks else _track_normal(scene, tracks[0])
     swing = _swing(scene, flat)
     up = _up(scene, swing, flat, doubts)
     left = tracks[0].axis if tracks else _left(scene, swing, up)
@@ -122,7 +126,7 @@ def _up(scene: _Scene, swing: str | None, flat: Floats | None, doubts: list[str]
         # Wheels that are steered turn on upright pins.
         upright = [a.direction for a in scene.axes.values() if abs(float(a.direction @ flat)) > SAME_DIRECTION]
         up = upright[0] if upright else flat
-        if not upright and not _stand_alike(scene.rolling, flat):
+        if not upright and len(scene.tracks) < 2 and not _stand_alike(scene.rolling, flat):
             doubts.append("up is the normal of the wheels' plane")
     else:
         up = _up_guess(_common_direction(list(scene.axes.values())))
@@ -163,6 +167,23 @@ def _ground_normal(scene: _Scene) -> Floats | None:
         other = np.linalg.svd(feet - feet.mean(axis=0))[2][2]
         normal = np.asarray(other if float(other @ normal) > 0.0 else -other, dtype=np.float64)
     return normal
+
+
+def _track_normal(scene: _Scene, track: Track) -> Floats:
+    """The normal of the run on the ground: the shoes' middles that are farthest from the rest of the machine. The whole
+    loop need not be even about its length."""
+    normal = np.cross(track.axis, track.along)
+    away = track.center - _middle([s for s in scene.solids if all(s.index not in shoe for shoe in track.shoes)])
+    normal = normal if float(away @ normal) < 0.0 else -normal
+    heights = track.centers @ normal
+    high = float(np.ptp(heights))
+    level = float(np.median(heights[heights < heights.min() + RUN * high]))
+    run = track.centers[np.abs(heights - level) < _EVEN_RUN * high]
+    if len(run) > 2:
+        along = np.linalg.svd(run - run.mean(axis=0))[2][0]
+        square = np.cross(track.axis, along)
+        normal = square if float(square @ normal) > 0.0 else -square
+    return np.asarray(normal, dtype=np.float64)
 
 
 def _above(scene: _Scene) -> Floats:

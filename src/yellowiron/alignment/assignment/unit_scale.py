@@ -16,7 +16,7 @@ from yellowiron.alignment.features.solids import size_of, solids_of
 from yellowiron.alignment.tolerances import CONTACT
 from yellowiron.model.assembly import Assembly, DeclaredJoint
 from yellowiron.model.finding import Finding
-from yellowiron.model.geometry import CylinderFeature, Floats, PlaneFeature, Shape
+from yellowiron.model.geometry import CylinderFeature, Floats, PlaneFeature, Shape, SphereFeature
 from yellowiron.model.specification import Specifications
 from yellowiron.model.template import Template, Wanted
 
@@ -173,6 +173,10 @@ def _larger(shape: Shape, factor: float, key: str) -> Shape:
         planes=tuple(PlaneFeature(_triple(p.point, factor), p.normal, p.area * factor**2) for p in shape.planes),
         bounds=shape.bounds * factor,
         knuckles=tuple(_cylinder(c, factor) for c in shape.knuckles),
+        spheres=tuple(
+            SphereFeature(_triple(s.center, factor), s.radius * factor, s.inner, s.area * factor**2)
+            for s in shape.spheres
+        ),
     )
 
 

@@ -15,8 +15,8 @@ from yellowiron.alignment.axes.outlines import OutlineCircle, outline_circles
 from yellowiron.alignment.axes.values import Round, plane_of
 from yellowiron.alignment.features.contacts import inside
 from yellowiron.alignment.features.solids import Cyl, Solid
+from yellowiron.alignment.spans import Spans
 from yellowiron.model.geometry import Floats
-from yellowiron.support.spans import Spans
 
 SPACING = 0.008
 """Points on a surface are this share of the machine's size apart."""

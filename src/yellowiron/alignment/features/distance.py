@@ -9,10 +9,10 @@ import fcl
 import numpy as np
 
 from yellowiron.alignment.features.solids import Cyl, Solid, solids_of
+from yellowiron.alignment.spans import Spans
 from yellowiron.model.assembly import Assembly, Part
 from yellowiron.model.geometry import Floats, Shape
 from yellowiron.support.caching.remembered import remembered
-from yellowiron.support.spans import Spans
 
 SAMPLES = 12
 """Points of a part that are asked whether they are inside of another."""

@@ -50,6 +50,15 @@ class Cyl:
 
 
 @dataclass(frozen=True, eq=False)
+class Ball:
+    """A ball or (`inner`) a socket in the CAD frame."""
+
+    center: Floats
+    radius: float
+    inner: bool
+
+
+@dataclass(frozen=True, eq=False)
 class Solid:
     """One part, ready to be reasoned about. `axis` is the cylinder whose axis the part is symmetric about, or None;
     `shaft` the solid bar it mainly is (a pin, a bolt, a rod), or None; `reach` its greatest radius about `axis` or
@@ -73,6 +82,7 @@ class Solid:
     start: float = 0.0
     end: float = 0.0
     knuckles: tuple[Cyl, ...] = ()
+    balls: tuple[Ball, ...] = ()
 
     @property
     def size(self) -> float:
@@ -201,6 +211,10 @@ def _solid(index: int, part: Part, shape: Shape, points: Floats, planes: tuple[P
         index, part, shape, points, low, high, centre, volume, cylinders,
         flat @ matrix.T + part.transform[:3, 3], normals @ turn.T, axis, shaft, reach, start, end,
         tuple(_cyl(c, part.transform, turn, scale) for c in shape.knuckles),
+        tuple(
+            Ball(np.array(b.center) @ matrix.T + part.transform[:3, 3], b.radius * scale, b.inner)
+            for b in shape.spheres
+        ),
     )  # fmt: skip
 
 

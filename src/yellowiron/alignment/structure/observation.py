@@ -5,6 +5,7 @@ from __future__ import annotations
 
 from dataclasses import dataclass, replace
 
+from yellowiron.alignment.features.ball_joints import ball_fits_of
 from yellowiron.alignment.features.contacts import (
     Flat,
     bare_fits_of,
@@ -66,7 +67,7 @@ def observe(assembly: Assembly, template: Template, contact: float) -> Observati
     if any(r.kind == "barrel" for r in template.roles):
         cylinders += solid_cylinders_of(solids, cylinders, tolerance)
         cylinders += apart_cylinders_of(solids, cylinders, tolerance)
-    fits = fits_of(solids, tolerance)
+    fits = fits_of(solids, tolerance) + ball_fits_of(solids, tolerance)
     fits += interrupted_fits_of(solids, fits, tolerance)
     fits += rimmed_fits_of(solids, fits, touch)
     pierced = pierced_fits_of(solids, fits, cylinders, touch, size)

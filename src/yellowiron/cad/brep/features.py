@@ -30,7 +30,7 @@ from OCP.TopoDS import TopoDS
 
 from yellowiron.cad.brep.tessellate import MILLIMETRE
 from yellowiron.cad.tolerances import PARALLEL
-from yellowiron.model.geometry import CylinderFeature, Floats, PlaneFeature
+from yellowiron.model.geometry import CylinderFeature, Floats, PlaneFeature, SphereFeature
 
 RECOGNITION = (1e-3, 1e-2)
 """A free-form face is a plane or cylinder if it departs from one by at most its tolerance, within these bounds, mm."""
@@ -76,7 +76,8 @@ class CylindricalFace:
 
 @dataclass(frozen=True, eq=False)
 class Face:
-    """What is known of one face, mm: kind of surface, area, centre of area, and the plane's or cylinder's data.
+    """What is known of one face, mm: kind of surface, area, centre of area, and the plane's or cylinder's data; of a
+    sphere (`ball`) its centre, radius, and whether the material is outside.
 
     `kind` is what the surface was recognised as.
     """
@@ -86,6 +87,7 @@ class Face:
     center: tuple[float, float, float]
     normal: tuple[float, float, float] | None = None
     patch: CylindricalFace | None = None
+    ball: tuple[Triple, float, bool] | None = None
 
 
 def survey(faces: Sequence[Any], box: Floats) -> tuple[list[Face], Any]:
@@ -120,7 +122,17 @@ def _face(face: Any, surface: Any, kind: int, area: float, center: Triple) -> Fa
         return Face(kind, area, center, patch=_cylinder_patch(face, surface, area))
     if kind == _FREE:
         return _recognise(face, surface, area, center)
+    if kind == _SPHERE:
+        return Face(kind, area, center, ball=_ball(face, surface))
     return Face(kind, area, center)
+
+
+def _ball(face: Any, surface: Any) -> tuple[Triple, float, bool]:
+    sphere = surface.Sphere()
+    position = sphere.Position()
+    inner = position.Direct() == (face.Orientation() == TopAbs_REVERSED)
+    x, y, z = position.Location().Coord()
+    return (x, y, z), float(sphere.Radius()), inner
 
 
 def _apex(cylinders: Sequence[Any], box: Floats) -> Any:
@@ -298,6 +310,26 @@ def planes(faces: Sequence[Face]) -> tuple[PlaneFeature, ...]:
         PlaneFeature(_metres(face.center), _clean(face.normal), face.area * MILLIMETRE**2)
         for face in faces
         if face.normal is not None
+    )
+
+
+def spheres(faces: Sequence[Face]) -> tuple[SphereFeature, ...]:
+    """The spheres, metres: faces on the same sphere are one feature, in the order of their first faces."""
+    found: list[tuple[Floats, float, bool, float]] = []
+    for face in faces:
+        if face.ball is None:
+            continue
+        center, radius, inner = np.array(face.ball[0]), face.ball[1], face.ball[2]
+        for number, (at, other, inside, area) in enumerate(found):
+            near = float(np.linalg.norm(at - center)) < SAME_CYLINDER and abs(other - radius) < SAME_CYLINDER
+            if near and inside == inner:
+                found[number] = (at, other, inside, area + face.area)
+                break
+        else:
+            found.append((center, radius, inner, face.area))
+    return tuple(
+        SphereFeature(_metres(tuple(map(float, at))), radius * MILLIMETRE, inner, area * MILLIMETRE**2)
+        for at, radius, inner, area in found
     )
 
 

@@ -264,5 +264,6 @@ def finish(solid: MeasuredSolid) -> tuple[Shape, int]:
         planes=features.planes(solid.survey) if found is None else found.planes,
         bounds=solid.box * MILLIMETRE,
         knuckles=() if found is None else found.knuckles,
+        spheres=features.spheres(solid.survey) if found is None else found.spheres,
     )
     return shape, missing

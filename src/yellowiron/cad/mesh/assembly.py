@@ -145,6 +145,7 @@ def shape_of(mesh: Mesh, name: str, color: Color | None = None, finishes: tuple[
         planes=found.planes,
         bounds=measures.bounds(mesh),
         knuckles=found.knuckles,
+        spheres=found.spheres,
         finishes=finishes,
     )
 

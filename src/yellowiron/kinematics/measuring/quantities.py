@@ -154,11 +154,30 @@ def _angle(quantity: Mapping[str, Any], posed: Posed) -> float:
 
 
 def _yaw(quantity: Mapping[str, Any], posed: Posed) -> float:
-    """How far what carries a level joint is turned to the left of straight ahead: its axis against the machine's y."""
+    """How far what carries a level joint is turned to the left of straight ahead: its axis against the machine's y; or
+    the line from one of two sites to the other, both on what turns."""
+    if "sites" in quantity:
+        line = _line(quantity, posed)
+        line = line if line[1] >= 0.0 else -line
+        return math.atan2(-float(line[0]), float(line[1]))
     joint = _joint(quantity.get("joint"), posed)
     axis = posed.direction(joint.body0, joint.axis)
     axis = axis if axis[1] >= 0.0 else -axis
     return math.atan2(-float(axis[0]), float(axis[1]))
+
+
+def _slope(quantity: Mapping[str, Any], posed: Posed) -> float:
+    """How steeply the line from one site to another rises."""
+    line = _line(quantity, posed)
+    return math.atan2(float(line[2]), math.hypot(line[0], line[1]))
+
+
+def _line(quantity: Mapping[str, Any], posed: Posed) -> Floats:
+    """From the first of two sites to the second (3,)."""
+    ends = [_place({"site": name}, posed) for name in quantity["sites"]]
+    if len(ends) != 2:
+        raise Unmeasurable("a line needs two sites")
+    return np.asarray(ends[1] - ends[0])
 
 
 def _reach(quantity: Mapping[str, Any], posed: Posed) -> float:
@@ -322,6 +341,7 @@ _KINDS: Mapping[str, Callable[[Mapping[str, Any], Posed], float]] = {
     "rise": _rise,
     "angle": _angle,
     "yaw": _yaw,
+    "slope": _slope,
     "reach": _reach,
     "joint_angle": _joint_angle,
     "joint_range": _joint_range,

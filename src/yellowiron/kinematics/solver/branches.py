@@ -11,6 +11,8 @@ from yellowiron.model.geometry import Floats
 from yellowiron.model.mechanism import Joint, Loop, Mechanism
 
 _PIVOTS = ("revolute", "spherical")
+_ACROSS = 0.7
+"""Cosine between a pivot's axis and a triangle's normal from which on it lies across the triangle."""
 Pivots = tuple[str, str, str]
 
 
@@ -19,7 +21,8 @@ def branch_pivots(mechanism: Mechanism) -> dict[str, Pivots]:
 
     The two links far–near and near–closing make the dyad that closes the loop: on a cylinder's loop barrel pivot, rod
     pivot and structural pivot. Its corner at `near` is straight at the loop's dead point, and changes its sign where
-    the loop flips to the other branch. A loop without such a triangle is absent.
+    the loop flips to the other branch. A loop without such a triangle is absent. Of a loop with balls the triangle is
+    looked at along a pivot of its own, else square to where it is drawn (`_normal`).
     """
     by_name = {joint.name: joint for joint in mechanism.joints}
     used: set[frozenset[str]] = set()
@@ -49,13 +52,34 @@ def branch_sines(chain: ClosedChain, pivots: Pivots, rotations: Floats, origins:
         return np.asarray(rotations[:, index] @ local + origins[:, index], dtype=np.float64)
 
     far, near, closing = (joints[name] for name in pivots)
-    normal = rotations[:, chain.body_index(near.body0)] @ np.array(near.axis, dtype=np.float64)
+    carrier, drawn = _normal(chain, far, near, closing)
+    normal = rotations[:, chain.body_index(carrier)] @ drawn
     one, two = at(far) - at(near), at(closing) - at(near)
     one -= np.sum(one * normal, axis=1, keepdims=True) * normal
     two -= np.sum(two * normal, axis=1, keepdims=True) * normal
     lengths = np.linalg.norm(one, axis=1) * np.linalg.norm(two, axis=1)
     area = np.sum(np.cross(one, two) * normal, axis=1)
     return np.divide(area, lengths, out=np.zeros_like(area), where=lengths > 1e-9)
+
+
+def _normal(chain: ClosedChain, far: Joint, near: Joint, closing: Joint) -> tuple[str, Floats]:
+    """The direction across a triangle of pivots, as drawn, and the body that carries it: the axis of the corner's
+    pivot; where there are balls the axis of a pivot that lies across the triangle, else the normal of the drawn
+    triangle, on a body that does not spin idly."""
+    triangle = (near, closing, far)
+    if all(pivot.type == "revolute" for pivot in triangle):
+        return near.body0, np.array(near.axis, dtype=np.float64)
+    corner = np.array(near.anchor)
+    normal = np.cross(np.array(far.anchor) - corner, np.array(closing.anchor) - corner)
+    length = float(np.linalg.norm(normal))
+    normal = normal / length if length > 0.0 else np.array([0.0, 0.0, 1.0])
+    for pivot in triangle:
+        axis = np.array(pivot.axis, dtype=np.float64)
+        if pivot.type == "revolute" and abs(float(axis @ normal)) > _ACROSS:
+            return pivot.body0, axis
+    idle = {body for spin in chain.spins for body in spin.bodies}
+    bodies = [body for joint in (far, closing, near) for body in (joint.body0, joint.body1)]
+    return next((body for body in bodies if body not in idle), near.body0), normal
 
 
 def _cylinder_triangle(mechanism: Mechanism, loop: Loop, joints: Mapping[str, Joint]) -> Pivots | None:
@@ -76,6 +100,7 @@ def _cylinder_triangle(mechanism: Mechanism, loop: Loop, joints: Mapping[str, Jo
 def _dyad(loop: Loop, joints: Mapping[str, Joint], used: set[frozenset[str]]) -> Pivots | None:
     """The two pivots that follow the cut around the loop, from the side that no shorter loop has used."""
     cut = joints[loop.cut]
+    balls = any(joints[name].type == "spherical" for name in loop.joints)
     for start in (cut.body1, cut.body0):
         body, rest, pivots = start, [name for name in loop.joints if name != loop.cut], list[str]()
         while rest and len(pivots) < 2:
@@ -85,7 +110,9 @@ def _dyad(loop: Loop, joints: Mapping[str, Joint], used: set[frozenset[str]]) ->
             rest.remove(following)
             joint = joints[following]
             body = joint.body1 if joint.body0 == body else joint.body0
-            if joint.type in _PIVOTS:
+            # Crossed pins are one place, as a ball is.
+            crossed = balls and any(joints[name].anchor == joint.anchor for name in pivots)
+            if joint.type in _PIVOTS and not crossed:
                 pivots.append(following)
         if len(pivots) == 2 and frozenset(pivots) not in used:
             return (pivots[1], pivots[0], loop.cut)

@@ -15,8 +15,10 @@ import mujoco
 import numpy as np
 
 from yellowiron.kinematics.solver.floating import attached
-from yellowiron.kinematics.solver.independence import independent_joints, square_system, suspects
+from yellowiron.kinematics.solver.idle_spins import idle_spins
+from yellowiron.kinematics.solver.independence import independent_joints, locked_error, square_system, suspects
 from yellowiron.kinematics.solver.multibody import build, transverse
+from yellowiron.kinematics.solver.positions import continued
 from yellowiron.kinematics.tolerances import CLOSED, RANK
 from yellowiron.model.errors import MechanismError
 from yellowiron.model.geometry import Floats
@@ -27,6 +29,12 @@ _STEP = {"prismatic": 0.2, "revolute": 0.35}
 """Longest step between solved states, metres or radians, so that they stay on the branch."""
 _ITERATIONS = 12
 """Newton's, after which a step is halved."""
+_CORRECTION, _CONTRACTION = 0.2, 0.5
+"""Linkages with balls may have several poses at the same strokes that no sign tells apart: a step there is no longer
+than that Newton's corrections stay below this (m, rad) and shrink the gaps by this each time, so that it stays near its
+own."""
+_SMALL_GAP = 1e-9
+"""Metres from which on rounding may slow that down."""
 _SHORTEST = 1e-7
 """Share of the way below which a halved step is a dead point."""
 _NEAR, _SMALL = 1e-3, 0.05
@@ -80,6 +88,8 @@ class ClosedChain:
         self._model = self._body.model
         self._data = mujoco.MjData(self._model)
         self._joints = {joint.name: joint for joint in mechanism.joints}
+        self.spins = idle_spins(mechanism)
+        """Links that can spin idly; here they do not twist."""
         self._follows = [(joint.name, joint.follows) for joint in mechanism.joints if joint.follows is not None]
         self._origins = {body.name: np.array(body.origin, dtype=np.float64) for body in mechanism.bodies}
         for name in floating:
@@ -104,7 +114,7 @@ class ClosedChain:
         for name in given:
             fixed[self._dofs(name)] = True
         loose = np.flatnonzero(~fixed)
-        system = square_system(self._jacobian, loose, self._body.cuts.values(), len(self._follows))
+        system = square_system(self._jacobian, loose, self._body.cuts.values(), len(self._follows) + len(self.spins))
         if system is None:
             raise MechanismError(
                 "the drawn pose is at a dead point of a loop",
@@ -114,14 +124,15 @@ class ClosedChain:
         self._rows, self._columns = system
         self._block = np.ix_(self._rows, self._columns)
         dependent = {int(column) for column in self._columns}
-        self.independent: tuple[str, ...] = tuple(given)
-        """Joints whose coordinates are given: driven, motor and free ones."""
+        self.independent: tuple[str, ...] = tuple(n for n in given if self._joints[n].type != "spherical")
+        """Joints whose coordinates are given: driven, motor and free ones. A free ball has none that could be: what
+        hangs on it stays as drawn."""
         self.dependent: tuple[str, ...] = tuple(
             name for name in self._body.joints if any(d in dependent for d in self._dofs(name))
         )
         """Tree joints whose coordinates follow from the loops, or from the joints that lead them."""
         self.idle: tuple[str, ...] = tuple(
-            name for name in self._body.joints if name not in self.independent and name not in self.dependent
+            name for name in self._body.joints if name not in given and name not in self.dependent
         )
         """Tree joints that are neither: nothing drives them and no loop determines them."""
         self._sign = self._orientation()
@@ -131,6 +142,11 @@ class ClosedChain:
         return range(first, first + (3 if self._joints[joint].type == "spherical" else 1))
 
     @property
+    def balls(self) -> tuple[tuple[int, int], ...]:
+        """Where the balls of the tree are in positions and in velocities."""
+        return tuple(self._body.joints[n] for n in self._body.joints if self._joints[n].type == "spherical")
+
+    @property
     def plain(self) -> bool:
         """Whether a state's position is one number a coordinate: no ball among the tree's joints."""
         return bool(self._model.nq == self._model.nv)
@@ -138,17 +154,25 @@ class ClosedChain:
     @property
     def degrees_of_freedom(self) -> int:
         """Tree coordinates less the rank of the constraint Jacobian (singular values) in the drawn pose."""
+        return int(self._model.nv) - self._rank()
+
+    @property
+    def undetermined(self) -> int:
+        """How many ways are left to move in the drawn pose with all independent coordinates held, where others hold
+        each other: there drives are at a dead point."""
+        return self._rank() - len(self._rows)
+
+    def _rank(self) -> int:
         jacobian = self._at(self.drawn)
         values = np.linalg.svd(jacobian, compute_uv=False) if jacobian.size else np.zeros(0)
-        return int(self._model.nv - np.count_nonzero(values > RANK * max(1.0, float(values.max(initial=0.0)))))
+        return int(np.count_nonzero(values > RANK * max(1.0, float(values.max(initial=0.0)))))
 
     def components(self) -> tuple[Component, ...]:
         """The groups of coordinates that the loops couple, in the mechanism's order."""
         jacobian = np.abs(self._at(self.drawn)) > 1e-9
         groups: list[tuple[set[int], list[str]]] = []
         coupling = [([c], [3 * point + row for point in p for row in range(3)]) for c, p in self._body.cuts.items()]
-        first = len(jacobian) - len(self._follows)
-        coupling += [([], [first + number]) for number in range(len(self._follows))]
+        coupling += [([], [row]) for row in range(3 * len(self._body.bases), len(jacobian))]
         for cut, rows in coupling:
             columns = {int(c) for c in np.flatnonzero(jacobian[rows].any(axis=0))}
             joined = [group for group in groups if group[0] & columns]
@@ -218,7 +242,8 @@ class ClosedChain:
         states: list[State] = []
         for row in table:
             # Paths are mostly smooth: guess the dependent coordinates from the last states.
-            position = _continued(states) if self.plain and len(states) >= 3 else state.position.copy()
+            last = [each.position for each in states[-3:]]
+            position = continued(last, self.balls) if len(last) == 3 else state.position.copy()
             near = float(np.abs(row - position[indices]).max(initial=0.0)) < _NEAR
             small = float(np.abs(row - state.position[indices]).max(initial=0.0)) < _SMALL
             position[indices] = row
@@ -269,12 +294,14 @@ class ClosedChain:
                 return self._orientation() == self._sign
             if not worst < previous:  # also catches NaN
                 return False
+            if not self.plain and worst > max(_CONTRACTION * previous, _SMALL_GAP):
+                return False
             previous = worst
             try:
                 correction = np.linalg.solve(self._jacobian[self._block], -gaps)
             except np.linalg.LinAlgError:
                 return False
-            if float(np.abs(correction).max()) > 1.0:
+            if float(np.abs(correction).max()) > (1.0 if self.plain else _CORRECTION):
                 return False
             step[self._columns] = correction
             mujoco.mj_integratePos(self._model, position, step, 1.0)
@@ -291,8 +318,8 @@ class ClosedChain:
         return state
 
     def _evaluate(self, position: Floats) -> None:
-        """Gaps (rows: 3 a connection point, in the cut's own frame on `body0`, then one a joint that follows) and their
-        Jacobian at a position."""
+        """Gaps (rows: 3 a connection point, in the cut's own frame on `body0`, then one a joint that follows, then one
+        an idle spin) and their Jacobian at a position."""
         data, model = self._data, self._model
         data.qpos[:] = position
         self._placed = None
@@ -302,42 +329,31 @@ class ClosedChain:
             mujoco.mj_makeConstraint(model, data)
             points = len(self._body.bases)
             if data.nefc != 3 * points:
-                raise self._locked()
+                raise locked_error(self.mechanism, tuple(self._body.cuts))
             turned = self._body.frames @ data.xmat[self._body.bases].reshape(points, 3, 3).transpose(0, 2, 1)
             self._gaps = (turned @ data.efc_pos.reshape(points, 3, 1)).reshape(-1)
             self._jacobian = (turned @ data.efc_J.reshape(points, 3, model.nv)).reshape(3 * points, model.nv)
-        if self._follows:
-            self._evaluate_followers(position)
+        if self._follows or self.spins:
+            self._evaluate_coupled(position)
 
-    def _evaluate_followers(self, position: Floats) -> None:
-        """Puts a row below those of the loops for every joint that follows: how far it is from where it should be."""
+    def _evaluate_coupled(self, position: Floats) -> None:
+        """Puts a row below those of the loops for every joint that follows: how far it is from where it should be; and
+        for every link that can spin: how far it is twisted (half, in radians, of the ball that leads to it)."""
         loops = 3 * len(self._body.bases)
-        rows = np.zeros((len(self._follows), self._model.nv))
-        gaps = np.zeros(len(self._follows))
+        rows = np.zeros((len(self._follows) + len(self.spins), self._model.nv))
+        gaps = np.zeros(len(rows))
         for number, (name, follows) in enumerate(self._follows):
             own, led = self._body.joints[name], self._body.joints[follows.joint]
             gaps[number] = position[own[0]] - follows.ratio * position[led[0]] - follows.offset
             rows[number, own[1]] = 1.0
             rows[number, led[1]] -= follows.ratio
+        for number, spin in enumerate(self.spins, len(self._follows)):
+            first, column = self._body.joints[spin.ball]
+            w, vector = position[first], position[first + 1 : first + 4]
+            gaps[number] = vector @ spin.line
+            rows[number, column : column + 3] = 0.5 * (w * spin.line + np.cross(spin.line, vector))
         self._gaps = np.concatenate([self._gaps[:loops], gaps])
         self._jacobian = np.concatenate([self._jacobian[:loops], rows])
-
-    def _locked(self) -> MechanismError:
-        """The error for cuts whose bodies cannot move against each other, with the joints that hold them."""
-        rigid = {
-            loop.cut: [name for name in loop.joints if name != loop.cut]
-            for loop in self.mechanism.loops
-            if all(self._joints[name].type == "fixed" for name in loop.joints if name != loop.cut)
-        }
-        holding = list(dict.fromkeys(name for names in rigid.values() for name in names)) or list(self._body.cuts)
-        hint = suspects(self.mechanism, holding)
-        if not hint:
-            hint = "Their loop has no moving joint: remove one of its joints, or add the missing pivots."
-        return MechanismError(
-            "a joint joins two bodies that cannot move against each other",
-            where=", ".join(rigid or self._body.cuts),
-            hint=f"{hint} They are held by {', '.join(holding)}." if rigid else hint,
-        )
 
     def _at(self, state: State) -> Floats:
         """Brings the model to a state; returns the closure Jacobian there."""
@@ -473,8 +489,3 @@ class ClosedChain:
         jacobian = np.zeros((3, self._model.nv))
         mujoco.mj_jacSubtreeCom(self._model, self._data, jacobian, 0)
         return float(self._model.body_subtreemass[0] * (jacobian[2] @ velocity))
-
-
-def _continued(states: Sequence[State]) -> Floats:
-    """Where the last three positions of a sweep lead to: a parabola through them, one step on."""
-    return 3.0 * (states[-1].position - states[-2].position) + states[-3].position

@@ -10,6 +10,7 @@ from collections.abc import Collection, Sequence
 import numpy as np
 
 from yellowiron.kinematics.tolerances import RANK
+from yellowiron.model.errors import MechanismError
 from yellowiron.model.geometry import Floats
 from yellowiron.model.mechanism import Mechanism
 
@@ -42,6 +43,25 @@ def suspects(mechanism: Mechanism, among: Sequence[str] | None = None) -> str:
         if "document" in joint.source and (among is None or joint.name in among)
     ]
     return f"The likely cause is the joint {'; '.join(stated)}: remove or correct it." if stated else ""
+
+
+def locked_error(mechanism: Mechanism, cuts: Sequence[str]) -> MechanismError:
+    """The error for cuts whose bodies cannot move against each other, with the joints that hold them."""
+    types = {joint.name: joint.type for joint in mechanism.joints}
+    rigid = {
+        loop.cut: [name for name in loop.joints if name != loop.cut]
+        for loop in mechanism.loops
+        if all(types[name] == "fixed" for name in loop.joints if name != loop.cut)
+    }
+    holding = list(dict.fromkeys(name for names in rigid.values() for name in names)) or list(cuts)
+    hint = suspects(mechanism, holding)
+    if not hint:
+        hint = "Their loop has no moving joint: remove one of its joints, or add the missing pivots."
+    return MechanismError(
+        "a joint joins two bodies that cannot move against each other",
+        where=", ".join(rigid or cuts),
+        hint=f"{hint} They are held by {', '.join(holding)}." if rigid else hint,
+    )
 
 
 def square_system(

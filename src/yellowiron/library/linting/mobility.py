@@ -1,26 +1,27 @@
 """How a template's mechanism can move, before any geometry is known: Grübler's counts and the generic rank.
 
-Joints that lie on common loops form a group, and a group is planar: its pivots are parallel, its slides lie in the
-plane across them. So are steering and working equipment, and so is every linkage that a template describes. Joints in
-no loop move on their own.
+Joints that lie on common loops form a group. A group without balls is planar: its pivots are parallel, its slides lie
+in the plane across them, as in steering and most working equipment. One with a ball is spatial (a dozer's blade): its
+joints are anywhere, save what the template says of their directions and sides. Joints in no loop move on their own.
 """
 
 from __future__ import annotations
 
 import functools
-from collections.abc import Iterable, Mapping, Sequence
-from dataclasses import dataclass
+from collections.abc import Collection, Iterable, Mapping, Sequence
+from dataclasses import dataclass, field
 from typing import NamedTuple
 
 import numpy as np
 
+from yellowiron.library.linting.generic_placement import placed
 from yellowiron.model.geometry import Floats
 from yellowiron.model.rows import split_index
 from yellowiron.model.template import JointTemplate, Template
+from yellowiron.support import spatial as in_space
 from yellowiron.support.graphs import blocks, components
+from yellowiron.support.spatial import FREEDOMS, IdleLink, idle_links
 
-_SPATIAL_FREEDOM: Mapping[str, int] = {"fixed": 0, "distance": 5, "spherical": 3, "revolute": 1, "prismatic": 1}
-"""Joint type → its degrees of freedom in space."""
 _PLANAR_FREEDOM: Mapping[str, int] = {"distance": 2, "spherical": 1, "revolute": 1, "prismatic": 1}
 _SAMPLES = 3
 """Random poses looked at: one already has the generic rank with probability 1."""
@@ -33,7 +34,11 @@ class Group:
     """Joints on common loops, with the bodies between them. `grubler` is the planar count 3(n−1) − Σ(3−f), negative
     where the group is locked more than once; `computed` the degrees of freedom by the rank of the constraint Jacobian
     in general position; `expected` the driven and free coordinates among its joints; `undetermined` the degrees of
-    freedom that are left when all of those are held."""
+    freedom that are left when all of those are held.
+
+    Of a `spatial` group `grubler` is the count 6(n−1) − Σ(6−f). Its `idle` links spin about their own line: `computed`
+    is without these. `superfluous`: joint → what would do in its place ("": nothing); `unlocking`: changes of type that
+    would let a locked one move."""
 
     bodies: tuple[str, ...]
     joints: tuple[str, ...]
@@ -41,14 +46,18 @@ class Group:
     computed: int
     expected: int
     undetermined: int = 0
+    spatial: bool = False
+    idle: tuple[IdleLink, ...] = ()
+    superfluous: Mapping[str, str] = field(default_factory=dict)
+    unlocking: tuple[Mapping[str, str], ...] = ()
 
 
 @dataclass(frozen=True)
 class TemplateMobility:
     """Degrees of freedom relative to the root under one set of `choices`: `computed` by the generic rank, `expected`
-    the driven and free coordinates, `planar` and `spatial` by Grübler's count (a planar loop counts 3 too few in
-    space). A joint that follows another takes 1 from each count. `loose` are joints in no loop that are neither driven
-    nor free, and follow none."""
+    the driven and free coordinates (three of a free ball), `planar` and `spatial` by Grübler's count (a planar loop
+    counts 3 too few in space; `planar` has a spatial group's own). A joint that follows another takes 1 from each
+    count, an idle spin none. `loose` are joints in no loop that are neither driven nor free, and follow none."""
 
     choices: Mapping[str, str]
     computed: int
@@ -66,12 +75,13 @@ def mobility(template: Template, choices: Mapping[str, str]) -> TemplateMobility
     ends = welded_ends(template, joints)
     coordinates = _coordinates_of(template)
     leaders = {j.name: j.follows.joint for j in joints if j.follows is not None}
+    idle = idle_links(template.root, ends, {n: template.joint(n).type for n in ends})
     groups, loose = [], []
     computed = planar = 0
     for names in blocks(ends):
         members = [template.joint(n) for n in names]
         if len(members) == 1:
-            alone = _SPATIAL_FREEDOM[members[0].type] if names[0] not in leaders else 0
+            alone = FREEDOMS[members[0].type] if names[0] not in leaders else 0
             computed += alone
             planar += alone
             loose += [n for n in names if n not in coordinates and n not in leaders]
@@ -79,6 +89,11 @@ def mobility(template: Template, choices: Mapping[str, str]) -> TemplateMobility
         # What follows a joint elsewhere stands still while that does.
         led = frozenset(n for n in names if n in leaders and leaders[n] not in names)
         bodies = tuple(dict.fromkeys(b for n in names for b in ends[n]))
+        if any(j.type == "spherical" for j in members):
+            groups.append(_spatial_group(template, bodies, members, ends, coordinates, idle, led))
+            computed += groups[-1].computed
+            planar += groups[-1].grubler
+            continue
         count = 3 * (len(bodies) - 1) - sum(3 - _PLANAR_FREEDOM[j.type] for j in members)
         count -= sum(n in leaders for n in names)
         free = _generic_freedom(bodies, members, ends, held=led)
@@ -88,9 +103,40 @@ def mobility(template: Template, choices: Mapping[str, str]) -> TemplateMobility
         computed += free
         planar += count
     bodies = tuple(dict.fromkeys(b for pair in ends.values() for b in pair))
-    spatial = 6 * (len(bodies) - 1) - sum(6 - _SPATIAL_FREEDOM[template.joint(n).type] for n in ends)
+    spatial = 6 * (len(bodies) - 1) - sum(6 - FREEDOMS[template.joint(n).type] for n in ends)
     spatial -= sum(n in ends for n in leaders)
-    return TemplateMobility(choices, computed, len(coordinates), planar, spatial, tuple(groups), tuple(loose))
+    expected = sum(FREEDOMS[template.joint(n).type] for n in coordinates)
+    return TemplateMobility(choices, computed, expected, planar, spatial, tuple(groups), tuple(loose))
+
+
+def _spatial_group(
+    template: Template,
+    bodies: tuple[str, ...],
+    members: Sequence[JointTemplate],
+    ends: Mapping[str, tuple[str, str]],
+    coordinates: Collection[str],
+    idle: Sequence[IdleLink],
+    led: frozenset[str],
+) -> Group:
+    """A group with balls: its mobility by the six-dimensional rank."""
+    random = np.random.default_rng(20240607)
+    samples = [placed(template, members, ends, random) for _ in range(_SAMPLES)]
+    # The most constrained of them is the generic one.
+    joints = min(samples, key=lambda sample: in_space.freedom(sample, held=led))
+    names = tuple(j.name for j in members)
+    idle = tuple(link for link in idle if set(link.balls) <= set(names))
+    given = frozenset(names).intersection(coordinates)
+    free = in_space.freedom(joints, held=led) - len(idle)
+    left = in_space.freedom(joints, held=given | led) - len(idle)
+    expected = sum(FREEDOMS[j.type] for j in members if j.name in given)
+    count = in_space.grubler(joints) - len(idle)
+    redundant: Mapping[str, str] = {}
+    unlocking: tuple[Mapping[str, str], ...] = ()
+    if free < expected:
+        unlocking = in_space.unlocking(joints, given)
+    elif free > count:
+        redundant = in_space.superfluous(joints)
+    return Group(bodies, names, count, free, expected, left, True, idle, redundant, unlocking)
 
 
 def _coordinates_of(template: Template) -> tuple[str, ...]:

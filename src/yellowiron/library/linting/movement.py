@@ -8,6 +8,7 @@ from yellowiron.library.linting.mobility import Group
 from yellowiron.model.finding import Finding
 from yellowiron.model.rows import rings, split_index
 from yellowiron.model.template import Template
+from yellowiron.support.text import with_article
 
 
 def connections(template: Template) -> Iterator[Finding]:
@@ -33,8 +34,10 @@ def connections(template: Template) -> Iterator[Finding]:
 
 
 def movement(template: Template, group: Group) -> Iterator[Finding]:
-    """A group of loops moves as its drives want it to: neither locked nor loose, nor one part driven twice."""
+    """A group of loops moves as its drives want it to: neither locked nor loose, nor one part driven twice. Links of a
+    spatial one that spin idly, and what holds there what others hold already, are said."""
     name = _name_of(template, group)
+    yield from _spatial(template, group, name)
     if group.computed == group.expected:
         if group.undetermined:
             yield Finding(
@@ -46,7 +49,8 @@ def movement(template: Template, group: Group) -> Iterator[Finding]:
                 "Mark twin cylinders passive, and give the joint that is left over a drive.",
             )
         return
-    figures = f"planar mobility {group.grubler}, {group.expected} expected"
+    kind = "spatial" if group.spatial else "planar"
+    figures = f"{kind} mobility {group.grubler}, {group.expected} expected"
     if group.computed < group.expected:
         pivots = _missing_pivots(template, group.joints)
         message = f"The {name} is locked ({figures})"
@@ -55,7 +59,7 @@ def movement(template: Template, group: Group) -> Iterator[Finding]:
             message += f": there is no pivot {listed}, and a part without a joint to its frame is welded to it"
             hint = "Add " + ", ".join(f"{frame}2{part}_joint" for frame, part in pivots) + ": Revolute."
         else:
-            hint = "A pivot is missing, or a joint is there twice: " + ", ".join(group.joints) + "."
+            hint = _freeing(group) or "A pivot is missing, or a joint is there twice: " + ", ".join(group.joints) + "."
         yield Finding("TPL002", "error", template.root, f"{message}.", hint)
     else:
         yield Finding(
@@ -65,6 +69,40 @@ def movement(template: Template, group: Group) -> Iterator[Finding]:
             f"The {name} is loose ({figures}, {group.computed} by rank).",
             'A joint or a drive is missing, or "free" is, among: ' + ", ".join(group.joints) + ".",
         )
+
+
+def _spatial(template: Template, group: Group, name: str) -> Iterator[Finding]:
+    if group.idle:
+        links = ", ".join(" with ".join(link.bodies) for link in group.idle)
+        yield Finding(
+            "TPL022",
+            "info",
+            template.root,
+            f"Between balls at both ends these links of the {name} can spin about their own line, which moves nothing "
+            f"else and is not counted: {links}.",
+        )
+    if group.superfluous and group.computed == group.expected:
+        instead = "; ".join(
+            f"{joint} ({'none' if not kind else with_article(kind)} would do)"
+            for joint, kind in group.superfluous.items()
+        )
+        yield Finding(
+            "TPL023",
+            "info",
+            template.root,
+            f"The {name} is held {group.computed - group.grubler} times more than it needs: it moves only where its "
+            f"joints are exactly in line.",
+            f"One of these may be freer: {instead}.",
+        )
+
+
+def _freeing(group: Group) -> str:
+    """What would let a locked spatial group move; "" where no change of one or two joints does."""
+    if not group.unlocking:
+        return ""
+    ways = [" and ".join(f"{joint} {kind.capitalize()}" for joint, kind in way.items()) for way in group.unlocking[:6]]
+    more = len(group.unlocking) - len(ways)
+    return f"It moves with {', or with '.join(ways)}{f' ({more} more ways)' if more else ''}."
 
 
 def _name_of(template: Template, group: Group) -> str:

@@ -12,7 +12,7 @@ from yellowiron.library.parsing.variants import choices_of
 from yellowiron.model.errors import TemplateError
 from yellowiron.model.rows import split_index
 from yellowiron.model.specification import fold
-from yellowiron.model.template import DriveType, Follows, JointTemplate, JointType, Role
+from yellowiron.model.template import Direction, DriveType, Follows, JointTemplate, JointType, Role
 
 DIMENSION: Mapping[str, str] = {
     "prismatic": "length",
@@ -65,6 +65,7 @@ def read_joint(document: Document, name: str, entry: Mapping[str, Any], base: Jo
         drive_when=choices_of(entry, "drive_when") if "drive_when" in entry else base.drive_when,
         ring=yes(entry["ring"]) if "ring" in entry else base.ring,
         follows=_follows(document, name, entry["follows"], kind) if "follows" in entry else base.follows,
+        direction=cast(Direction, entry["direction"].lower()) if "direction" in entry else base.direction,
     )
     if joint.follows is not None and joint.drive is not None:
         raise TemplateError(

@@ -37,6 +37,8 @@ _RIVAL = 0.5
 """A second axis whose shared area is more than this share of the best one's makes the choice doubtful."""
 _SHAFT = 0.5
 """What has less than this share of the area of a pin's largest shaft are the bolts and holes of its flange."""
+_PLAY = 0.07
+"""Share of a ball's radius by which its socket may be larger, or off its middle."""
 _MAIN = 0.5
 """A pin part with this share of the pin's cylinder area is no bolt or plate: it should be on the axis."""
 
@@ -141,6 +143,40 @@ def shared_bearing(placement: Placement, rows: Rows, *, near: Floats | None = No
     doubt = ("MEC006", f"{len(rivals) + 1} axes fit it about as well; the largest was taken.") if rivals else None
     method = f"least squares over {len(features)} coaxial cylinder(s) of both bodies"
     return Bearing(axis_of(features), features, method, doubt)
+
+
+def ball_bearing(placement: Placement, rows: Rows) -> Bearing | None:
+    """The middle of a ball of the one body in a socket of the other, with an upright line through it; None without.
+    Of several the largest."""
+    balls = [[(row, *sphere) for row in own for sphere in placement.spheres(row)] for own in rows]
+    found = [
+        (min(radius, wide), row, other, center)
+        for row, center, radius, inner in balls[0]
+        for other, place, wide, inside in balls[1]
+        if inner != inside
+        and abs(radius - wide) < _PLAY * radius
+        and float(np.linalg.norm(center - place)) < max(_PLAY * radius, SAME_OFFSET)
+    ]
+    if not found:
+        return None
+    radius, row, other, center = max(found, key=lambda each: each[0])
+    parts = " and ".join(placement.ids([row, other]))
+    method = f"middle of the ball of {2e3 * radius:.4g} mm in its socket, {parts}"
+    return Bearing(Axis(center, np.array([0.0, 0.0, 1.0])), placement.features(()), method)
+
+
+def eye_middle(placement: Placement, bearing: Bearing, bodies: tuple[str, str], pins: Sequence[int]) -> Floats | None:
+    """The middle of the shorter of the two bodies' bores on a pin's axis, which has the spherical bearing in it; the
+    longer is the clevis. None where a body has no bore there."""
+    spans = []
+    for body in bodies:
+        own = placement.features(row for row in placement.rows_of_body(body) if row not in pins)
+        own = own.take(on_axis(own, bearing.line))
+        if not len(own):
+            return None
+        spans.append(span(own, bearing.line))
+    low, high = min(spans, key=lambda ends: ends[1] - ends[0])
+    return bearing.line.at(0.5 * (low + high))
 
 
 def lone_bearing(placement: Placement, bodies: tuple[str, str], line: Axis) -> Bearing:

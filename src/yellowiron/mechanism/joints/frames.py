@@ -17,7 +17,9 @@ from yellowiron.mechanism.joints.bearings import (
     Bearing,
     Rows,
     agree,
+    ball_bearing,
     declared_bearing,
+    eye_middle,
     given_bearing,
     lone_bearing,
     lone_slide,
@@ -139,6 +141,8 @@ def _pivot(
 ) -> JointFrame | None:
     """A pivot: on its pin, else on the bores both bodies have; a wheel without either on its own axis of symmetry."""
     pins = [row for part in joint.parts if not template.role(part).rigid for row in placement.rows_of_role(part)]
+    if joint.type == "spherical" and (ball := ball_bearing(placement, _rows(placement, bodies))) is not None:
+        return _frame(joint, bodies, placement, ball, ball.line.point, ball.line.direction)
     wheel = next((part for part in joint.parts if template.role(part).kind in WHEELS), None)
     bearing = pin_bearing(placement, pins, bodies) or shared_bearing(placement, _rows(placement, bodies))
     # A pin that shows no axis (an open or faceted one) is none.
@@ -156,6 +160,8 @@ def _pivot(
     findings += bearing.findings(joint.name)
     line = bearing.line
     middle = line.at(0.5 * sum(bearing.reach)) if wheel is None else _wheel_middle(placement, wheel, line)
+    if joint.type == "spherical" and (eye := eye_middle(placement, bearing, bodies, pins)) is not None:
+        middle = eye
     return _frame(joint, bodies, placement, bearing, middle, machine_sense(line.direction))
 
 

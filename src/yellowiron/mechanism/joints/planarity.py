@@ -27,8 +27,8 @@ def make_parallel(
     """Frames in which the nearly parallel pivots of each closed group share one direction, and its slides lie across
     it.
 
-    `groups` are the joint names of closed mechanisms (`tree.loop_groups`). A moved joint's `source` says by how much
-    (`planarity_deg`); anchors stay.
+    `groups` are the joint names of closed mechanisms (`tree.loop_groups`), whose loops are planar. A moved joint's
+    `source` says by how much (`planarity_deg`); anchors stay.
     """
     result = dict(frames)
     findings: list[Finding] = []

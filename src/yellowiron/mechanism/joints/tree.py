@@ -8,6 +8,9 @@ least fit to be in it. What stays first, as engines hold loops best (docs/archit
 3. the pin on which a passive cylinder's barrel hangs;
 4. structural pins, the farthest from the root first: those a driven cylinder bridges, nearer to the root, close the
 loops; 5. the rod pin of a passive cylinder.
+
+A cut is held at a point. In a planar loop the other pins keep what that leaves of a pivot; where a loop has balls
+nothing does, so its pivots come right after the slides and a ball is cut.
 """
 
 from __future__ import annotations
@@ -20,7 +23,7 @@ from typing import Literal
 from yellowiron.mechanism.joints.frames import JointFrame
 from yellowiron.model.mechanism import Loop
 from yellowiron.model.template import Template
-from yellowiron.support.graphs import spanning_forest
+from yellowiron.support.graphs import blocks, spanning_forest
 
 LinkKind = Literal["weld", "slide", "motor", "driven", "hung", "pin", "loose"]
 _PLACE: Mapping[LinkKind, int] = {"weld": 0, "slide": 0, "motor": 1, "driven": 2, "hung": 3, "pin": 4, "loose": 5}
@@ -33,11 +36,13 @@ _WHY_CUT: Mapping[LinkKind, str] = {
 
 @dataclass(frozen=True)
 class Link:
-    """A joint as an edge between two bodies, and what kind it is for the choice of cuts."""
+    """A joint as an edge between two bodies, and what kind it is for the choice of cuts; `kept`: a pivot on loops with
+    balls, which must not be cut."""
 
     name: str
     bodies: tuple[str, str]
     kind: LinkKind
+    kept: bool = False
 
 
 @dataclass(frozen=True)
@@ -70,7 +75,18 @@ def links(template: Template, frames: Mapping[str, JointFrame]) -> tuple[Link, .
             return "weld"
         return "slide" if frame.joint.type == "prismatic" else kinds.get(frame.joint.name, "pin")
 
-    return tuple(Link(name, frame.bodies, kind(frame)) for name, frame in frames.items())
+    kept = _beside_balls(frames)
+    return tuple(Link(name, frame.bodies, kind(frame), name in kept) for name, frame in frames.items())
+
+
+def _beside_balls(frames: Mapping[str, JointFrame]) -> set[str]:
+    """The pivots that share loops with balls."""
+    if not any(frame.joint.type == "spherical" for frame in frames.values()):
+        return set()
+    looped = blocks({name: frame.bodies for name, frame in frames.items()})
+    kinds = {name: frame.joint.type for name, frame in frames.items()}
+    beside = (names for names in looped if len(names) > 1 and any(kinds[n] == "spherical" for n in names))
+    return {name for names in beside for name in names if kinds[name] == "revolute"}
 
 
 def span_tree(root: str, edges: Sequence[Link]) -> Tree:
@@ -83,7 +99,7 @@ def span_tree(root: str, edges: Sequence[Link]) -> Tree:
         return min(structure.get(b, far) for b in edge.bodies)
 
     order = {e.name: i for i, e in enumerate(edges)}
-    fittest = sorted(edges, key=lambda e: (_PLACE[e.kind], -reach(e), order[e.name]))
+    fittest = sorted(edges, key=lambda e: (min(_PLACE[e.kind], 1 if e.kept else 9), -reach(e), order[e.name]))
     kept, closing = spanning_forest(fittest, lambda e: e.bodies)
     kept.sort(key=lambda e: order[e.name])
     depth = _distances(root, kept)
@@ -112,6 +128,11 @@ def loose_bodies(root: str, bodies: Sequence[str], edges: Sequence[Link]) -> tup
             first.append(body)
             reached |= set(_distances(body, edges))
     return tuple(first)
+
+
+def planar_loops(loops: Sequence[Loop], frames: Mapping[str, JointFrame]) -> tuple[Loop, ...]:
+    """The loops without a ball, whose pivots must be parallel."""
+    return tuple(loop for loop in loops if not any(frames[name].joint.type == "spherical" for name in loop.joints))
 
 
 def loop_groups(loops: Sequence[Loop]) -> tuple[frozenset[str], ...]:

@@ -34,11 +34,11 @@ class Agreement:
     """How a stretch of steps agrees with the kinematics, the root's own motion taken out.
 
     `pin`: distance of a pin (or of a place on a slide that follows another joint), carried by either of its bodies,
-    from where the kinematics has it; `gap`: between its
-    places on its two bodies, for cut joints; `angle`: by which a body is turned from its pose. `sines`: cut joint → the
-    least signed sine at its loop's triangle of pivots, positive on the drawn branch. `followed` is false where poses
-    were not finite or no pose of the kinematics belongs to the measured strokes. `pins`, `angles` (m ≤ n,): the worst
-    of each step that was compared.
+    from where the kinematics has it; `gap`: between its places on its two bodies, for cut joints; `angle`: by which a
+    body is turned from its pose, the spin of links between two balls apart (what hangs on a free ball has no pose to be
+    in). `sines`: cut joint → the least signed sine at its loop's triangle of pivots, positive on the drawn branch.
+    `followed` is false where poses were not finite or no pose of the kinematics belongs to the measured strokes.
+    `pins`, `angles` (m ≤ n,): the worst of each step that was compared.
     """
 
     pin: Worst
@@ -62,10 +62,13 @@ class Comparison:
         self._bodies = np.array([self.chain.body_index(body.name) for body in mechanism.bodies])
         number = {body.name: index for index, body in enumerate(mechanism.bodies)}
         self._root = number[mechanism.root]
+        self._lines = [(number[body], spin.line) for spin in self.chain.spins for body in spin.bodies]
+        hanging = _hanging(mechanism)
+        self._posed = np.array([body.name not in hanging for body in mechanism.bodies], dtype=np.float64)
         self._pins: list[str] = []
         carriers, arms = [], []
         for joint in mechanism.joints:
-            if joint.type in _PIVOTS or joint.follows is not None:
+            if (joint.type in _PIVOTS or joint.follows is not None) and not hanging & {joint.body0, joint.body1}:
                 for body in (joint.body0, joint.body1):
                     self._pins.append(joint.name)
                     carriers.append(number[body])
@@ -111,7 +114,10 @@ class Comparison:
         turned = np.swapaxes(rotations, 2, 3) @ expected
         skew = turned - np.swapaxes(turned, 2, 3)
         sine = 0.5 * np.sqrt(skew[..., 0, 1] ** 2 + skew[..., 0, 2] ** 2 + skew[..., 1, 2] ** 2)
-        angles = np.arctan2(sine, 0.5 * (np.trace(turned, axis1=2, axis2=3) - 1.0))
+        angles = np.arctan2(sine, 0.5 * (np.trace(turned, axis1=2, axis2=3) - 1.0)) * self._posed
+        for body, line in self._lines:
+            apart = rotations[:, body] @ line - expected[:, body] @ line
+            angles[:, body] = 2.0 * np.arcsin(np.minimum(1.0, 0.5 * np.linalg.norm(apart, axis=1)))
         full, full_at = placed.copy(), at.copy()
         full[:, self._bodies], full_at[:, self._bodies] = rotations, origins
         return Agreement(
@@ -157,6 +163,15 @@ class Comparison:
         return np.asarray(
             np.einsum("npij,pj->npi", rotations[:, self._carriers], self._arms) + origins[:, self._carriers]
         )
+
+
+def _hanging(mechanism: Mechanism) -> set[str]:
+    """The bodies beyond free balls, which swing as they will."""
+    tree = [joint for joint in mechanism.joints if not joint.cut]
+    found = {joint.body1 for joint in tree if joint.type == "spherical" and joint.free}
+    for _ in mechanism.bodies if found else ():
+        found |= {joint.body1 for joint in tree if joint.body0 in found}
+    return found
 
 
 def _worst(values: Floats, names: list[str], first: int) -> Worst:

@@ -7,6 +7,7 @@ import numpy as np
 from scipy.interpolate import CubicSpline
 
 from yellowiron.kinematics import ClosedChain, State
+from yellowiron.kinematics.solver.positions import moved, normalized
 from yellowiron.model.geometry import Floats
 
 
@@ -24,7 +25,7 @@ def led_over(chain: ClosedChain, coordinates: Floats, start: State, stride: int)
     Empty where that cannot be done: `solved` says how far it goes. How well loops close between the solved steps is for
     the caller to see: the `closure` of the states there is infinite."""
     count = len(coordinates)
-    if stride < 2 or count < 2 * stride or not chain.independent or not chain.plain:
+    if stride < 2 or count < 2 * stride or not chain.independent:
         return []
     knots = np.unique(np.append(np.arange(0, count, stride), count - 1))
     states = solved(chain, coordinates[knots], start)
@@ -36,8 +37,14 @@ def led_over(chain: ClosedChain, coordinates: Floats, start: State, stride: int)
     aside = coordinates - CubicSpline(knots, coordinates[knots])(steps)
     before = np.minimum(np.searchsorted(knots, steps, side="right") - 1, len(knots) - 2)
     share = ((steps - knots[before]) / (knots[before + 1] - knots[before]))[:, None]
-    for here, weight in ((before, 1.0 - share), (before + 1, share)):
-        positions += weight * np.einsum("nij,nj->ni", tangents[here], aside)
+    ways = [
+        weight * np.einsum("nij,nj->ni", tangents[here], aside)
+        for here, weight in ((before, 1.0 - share), (before + 1, share))
+    ]
+    if chain.plain:
+        positions = positions + ways[0] + ways[1]
+    else:
+        positions = moved(normalized(positions, chain.balls), ways[0] + ways[1], chain.balls)
     between = [State(position, float("inf")) for position in positions]
     for knot, state in zip(knots.tolist(), states, strict=True):
         between[knot] = state

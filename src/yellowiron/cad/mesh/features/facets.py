@@ -12,6 +12,7 @@ from dataclasses import dataclass, replace
 
 import numpy as np
 
+from yellowiron.cad.mesh.features.balls import balls
 from yellowiron.cad.mesh.features.ovals import knuckles, ovals
 from yellowiron.cad.mesh.features.rings import rings, untold
 from yellowiron.cad.mesh.features.roundness import Round, fit, grown, least, median, trimmed, widths
@@ -19,7 +20,7 @@ from yellowiron.cad.mesh.features.soup import Flags, Indices, Soup, flat_facets,
 from yellowiron.cad.mesh.features.strips import by_folds, by_normals
 from yellowiron.cad.mesh.features.tolerances import FEWEST, ROUGH
 from yellowiron.cad.tolerances import PARALLEL
-from yellowiron.model.geometry import CylinderFeature, Floats, Mesh, PlaneFeature
+from yellowiron.model.geometry import CylinderFeature, Floats, Mesh, PlaneFeature, SphereFeature
 
 ENOUGH = ((5, 1.4), (4, 2.2))
 """(strips, radians around): a patch with as many of both as one of these is round, and not merely bent."""
@@ -50,11 +51,12 @@ _TRIES = 1
 
 @dataclass(frozen=True)
 class MeshFeatures:
-    """What a mesh has of cylinders, planes and knuckles."""
+    """What a mesh has of cylinders, planes, knuckles and spheres."""
 
     cylinders: tuple[CylinderFeature, ...]
     planes: tuple[PlaneFeature, ...]
     knuckles: tuple[CylinderFeature, ...] = ()
+    spheres: tuple[SphereFeature, ...] = ()
 
 
 def find(mesh: Mesh, number: Indices | None = None) -> MeshFeatures:
@@ -89,6 +91,7 @@ def find(mesh: Mesh, number: Indices | None = None) -> MeshFeatures:
         tuple(_feature(soup, r, arc, errors.get(id(r)) or untold(soup, r)) for r, arc in found),
         _planes(soup, free),
         tuple(_feature(soup, k.round, k.arc) for k in knuckles(soup, free)),
+        balls(soup),
     )
 
 

@@ -6,7 +6,7 @@ import numpy as np
 from hypothesis import given, settings
 from hypothesis import strategies as st
 
-from yellowiron.support.spans import Spans
+from yellowiron.alignment.spans import Spans
 
 
 @settings(max_examples=40, deadline=None)

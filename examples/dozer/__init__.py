@@ -1,0 +1,1 @@
+"""A dozer with a six-way blade."""
