@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import json
+import re
 from pathlib import Path
 from typing import Any
 
@@ -199,6 +200,22 @@ def test_collada_joints(tmp_path: Path, boxes: Meshes) -> None:
     hip = named(read_cad(path))["Hip"][1]
     assert hip.bone
     np.testing.assert_allclose(hip.origin, (1.0, 0.0, 0.0), atol=1e-6)
+
+
+def test_collada_with_drawn_edges(tmp_path: Path, boxes: Meshes) -> None:
+    """As SketchUp exports them: the library refused the whole file."""
+    path = tmp_path / "machine.dae"
+    WRITERS["COLLADA"][1](path, boxes)
+    plain = read_cad(path)
+    text = path.read_text(encoding="utf-8")
+    source = re.search(r'<vertices id="([^"]+)"', text)
+    assert source
+    given = f'<input offset="0" semantic="VERTEX" source="#{source.group(1)}"/><p>0 1</p>'
+    edges = f'<lines count="1">{given}</lines><lines count="0"/><linestrips count="1">{given}</linestrips></mesh>'
+    path.write_text(text.replace("</mesh>", edges, 1), encoding="utf-8")
+    drawn = read_cad(path)
+    assert [p.id for p in drawn.parts] == [p.id for p in plain.parts]
+    assert [len(drawn.shape_of(p).mesh.triangles) for p in drawn.parts] == [12] * len(plain.parts)
 
 
 @pytest.fixture

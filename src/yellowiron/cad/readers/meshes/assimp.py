@@ -32,6 +32,8 @@ _UP = re.compile(rb"<up_axis>\s*([XYZ]_UP)\s*</up_axis>")
 _INDICES = re.compile(r"(?:^|\})(?:p|h|v|vcount)$")
 """Elements that hold indices and counts."""
 _NO_INDEX = re.compile(r"[^\s\d+-]")
+_EDGES = re.compile(rb"<((?:\w+:)?(?:lines|linestrips))\b[^>]*?(?:/>|>.*?</\1\s*>)", re.DOTALL)
+"""Drawn edges, as SketchUp exports them: the library reads no face where there is one."""
 _FROM_Y_UP = {"Z_UP": np.array([[1.0, 0, 0, 0], [0, 0, -1, 0], [0, 1, 0, 0], [0, 0, 0, 1]])}
 """The library turns what has another axis up to Y up; this turns it back."""
 _DIFFUSE = 1
@@ -73,7 +75,13 @@ def read_collada(path: str) -> Assembly:
     # The library calls nodes by their ids.
     titles = {n["id"]: n["name"] for n in nodes if n.get("id") and n.get("name")}
     bones = {name for n in nodes if n.get("type") == "JOINT" for key in ("id", "name") if (name := n.get(key))}
-    return _read(path, "COLLADA", 0, frame, titles, bones=bones)
+    faces = _EDGES.sub(b"", data)
+    with TemporaryDirectory(prefix="yellowiron-") as folder:
+        spelled = path
+        if faces != data:
+            spelled = str(Path(folder) / "model.dae")
+            Path(spelled).write_bytes(faces)
+        return _read(path, "COLLADA", 0, frame, titles, bones=bones, spelled=spelled)
 
 
 def read_fbx(path: str) -> Assembly:
