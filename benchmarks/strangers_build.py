@@ -150,7 +150,17 @@ LOADER = (
     "Body.001", "Front_Forks", "Plane.001", "Front_Forks_Supporter",
     "Wheel_Left_Back", "Wheel_Left_Front", "Wheel_Right_Back", "Wheel_Right_Front",
 )  # fmt: skip
-"""The objects of `gaia_wheel_loader` in a file of seven machines."""
+"""The objects of `gaia_wheel_loader` in a file of seven machines …"""
+DIGGER = (
+    "Body.003", "Main_Forks", "Secondary Forks", "Secondary_Supporter", "Plane.003", "Main_Supporter", "Wheel",
+    "Inside_Wheels", "Cylinder.019", "Cube.008", "Cylinder.018", "Wheel_Supporter",
+)  # fmt: skip
+ROLLER = ("Body.004", "Front_Supporter", "Front_Wheel", "Wheel_Left_Back.001", "Wheel_Right_Back.001")
+TRUCK = (
+    "Dumping_Container", "Side_Mudguard", "Wheel_First_Right_Back", "Wheel_Second_Right_Back", "Wheel_Right_Front.001",
+    "Wheel_Front_Left", "WHeel_Second_Left_Back", "Wheel_First_Left_Back", "Body.002",
+)  # fmt: skip
+"""… and those of three others."""
 BUILDERS: dict[str, Callable[[Job], None]] = {
     "aik_forklift": one,
     "auwo_excavator": turned(urdf),
@@ -162,6 +172,9 @@ BUILDERS: dict[str, Callable[[Job], None]] = {
     "dozzer197_excavator": turned(xacro),
     "fattahhanafi_excavator": turned(xacro),
     "fedem_wheel_loader": turned(ftl),
+    "gaia_dump_truck": in_nodes(picked(*TRUCK)),
+    "gaia_excavator": in_nodes(picked(*DIGGER)),
+    "gaia_roller": in_nodes(picked(*ROLLER)),
     "gaia_wheel_loader": in_nodes(picked(*LOADER)),
     "haibingwang_simple_excavator": packed,
     "hiepnm_excavator": one,
@@ -171,6 +184,7 @@ BUILDERS: dict[str, Callable[[Job], None]] = {
     "johnweez_v2_simple": one,
     "jommsy_mini_excavator": turned(mjcf),
     "karel_forklift": one,
+    "kcl_dump_truck": one,
     "kcl_wheel_loader": one,
     "kennyvilella_excavator": in_nodes(mjcf),
     "l580_wheel_loader": turned(xacro),

@@ -97,9 +97,9 @@ def find_roles(
     asks for it; left and right hydraulic cylinders in one mesh apart, where they were taken for one of the two; left
     and right wheels in one mesh apart, if that finds two that were missing; hydraulic cylinders that are drawn into
     other meshes taken out, where that finds a barrel and a rod that were missing; where bodies are missing, or every
-    mesh may be a whole one, taken apart, if that finds a limb, or most of what is missing. `earlier` is an alignment
-    file whose edits hold, and whose parts are the model's as long as a person decides on them; `decisions` go before
-    them."""
+    mesh may be a whole one, taken apart, if that finds a limb, two wheels, or most of what is missing. `earlier` is an
+    alignment file whose edits hold, and whose parts are the model's as long as a person decides on them; `decisions` go
+    before them."""
 
     def found(model: Assembly) -> Alignment:
         edits = read_alignment(earlier, model, template) if earlier is not None else None
@@ -157,12 +157,13 @@ def find_roles(
     if apart is not None:
         other = found(apart)
         # Bodies in crumbs answer to more roles, wrongly: where few bodies were missing, pins must be found as well, or
-        # a limb that was drawn into another, with no more pins lost than found.
+        # a limb that was drawn into another, or wheels, with no more pins lost than found.
         fewer = hidden(other) < hidden(best)
         pins = {role.name for role in template.roles if role.kind == "pin"}
         gained = pins & (set(best.missing) - set(other.missing))
         lost = pins & {str(part.role) for part in best.parts} & (set(other.missing) - set(best.missing))
-        limb = fewer and limbs(other) < limbs(best) and len(lost) <= len(gained)
+        rolls = wheels(other) + 2 <= wheels(best)
+        limb = fewer and (limbs(other) < limbs(best) or rolls) and len(lost) <= len(gained)
         most = hidden(alignment) > len(moving) and hidden(other) < 0.5 * hidden(alignment)
         pinned = len(other.missing) < 0.5 * len(alignment.missing)
         if limb or ((fewer or best is alignment) and (most or pinned)):

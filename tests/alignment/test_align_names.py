@@ -269,3 +269,10 @@ def test_what_carries_a_part_does_not_name_it(digger: Template) -> None:
     plate, rod, _ = name_scores(assembly, digger, digger)
     assert plate["boom"] > 0.3
     assert rod["boom_piston_rod"] == max(rod.values())
+
+
+def test_body_may_be_a_trucks_chassis_or_what_it_dumps() -> None:
+    """Artists call the largest mesh so; it was the dump body, with a container beside it."""
+    words = vocabulary(load_template("rigid_dump_truck"))
+    assert concepts("Body.002", words) == {"chassis", "dump", "body"}
+    assert concepts("Dumping_Container", words) == concepts("DUMP BODY", words) == {"dump", "body"}

@@ -12,6 +12,7 @@ from yellowiron.alignment.fusion.annealing import labelled
 from yellowiron.alignment.fusion.bonds import Bond
 from yellowiron.alignment.fusion.judge import field_of, score_of
 from yellowiron.alignment.fusion.stance import Stance, on_wheels, stance_of
+from yellowiron.alignment.fusion.votes import odd_wheels
 from yellowiron.alignment.fusion.weights import weights
 from yellowiron.cad.mesh.assembly import Occurrence, assemble
 from yellowiron.library import load_template
@@ -96,6 +97,48 @@ def test_rims_of_spokes_and_tyres_with_treads_are_of_their_wheel() -> None:
     numbers = [sorted(int(every[i].part.name.split()[1]) for i in w.members) for w in found]
     assert sorted(numbers) == [[3 * k, 3 * k + 1, 3 * k + 2] for k in range(4)]
     assert all(w.radius == pytest.approx(0.73, abs=0.02) for w in found)
+
+
+def lugged(radius: float, width: float, lugs: int = 20) -> trimesh.Trimesh:
+    """A tyre whose tread is lugs alone, about Y: no face of it is round."""
+    count = 2 * lugs
+    turn = np.linspace(0.0, 2.0 * np.pi, count, endpoint=False)
+    reach = radius * np.where(np.arange(count) % 2, 0.85, 1.0)
+    rings = [np.stack([reach * np.cos(turn), np.full(count, y), reach * np.sin(turn)], axis=1) for y in (-0.5, 0.5)]
+    points = np.concatenate([*rings, np.zeros((2, 3))]) * [1.0, width, 1.0]
+    points[-2:, 1] = (-0.5 * width, 0.5 * width)
+    faces = []
+    for k in range(count):
+        n = (k + 1) % count
+        faces += [
+            [k, k + count, n],
+            [n, k + count, n + count],
+            [k, n, 2 * count],
+            [n + count, k + count, 2 * count + 1],
+        ]
+    return trimesh.Trimesh(points, faces, process=False)
+
+
+def test_a_tyre_of_lugs_alone_is_a_wheel_and_a_box_is_none() -> None:
+    places = [(x, y, 0.5) for x in (-1.5, 1.5) for y in (-1.0, 1.0)]
+    tyre, cube = lugged(0.5, 0.4), trimesh.creation.box((1.0, 0.4, 1.0)).subdivide().subdivide()
+    machine = solids((box(4.0, 1.0, 0.8), (0.0, 0.0, 1.2)), *((tyre, at) for at in places))
+    assert not any(s.axis is not None for s in machine)
+    found = wheels_of(machine, 4, set(), 1e-3)
+    assert sorted(tuple(np.round(w.center, 3)) for w in found) == sorted(places)
+    assert all(abs(w.direction[1]) > 0.9999 and w.radius == pytest.approx(0.5, rel=0.01) for w in found)
+    blocks = solids((box(4.0, 1.0, 0.8), (0.0, 0.0, 1.2)), *((cube, at) for at in places))
+    assert not wheels_of(blocks, 4, set(), 1e-3)
+
+
+def test_twin_tyres_are_at_the_rear_of_a_dump_truck() -> None:
+    """A truck was read back to front, twin tyres before, where that left less undrawn."""
+    front, rear = 40.0, 81.0
+    odd = odd_wheels([front, front, rear, rear], load_template("rigid_dump_truck"))
+    assert odd["front_wheel_l"](front) < 0.1 and odd["rear_wheel_r"](rear) < 0.1
+    assert odd["front_wheel_l"](rear) > 2.0 and odd["rear_wheel_r"](front) > 2.0
+    alike = odd_wheels([front] * 4, load_template("rigid_dump_truck"))
+    assert alike["front_wheel_l"](front) == pytest.approx(alike["rear_wheel_l"](front))
 
 
 def test_a_cylinder_and_its_twin_change_sides_together() -> None:

@@ -93,7 +93,9 @@ def vocabulary(template: Template) -> Vocabulary:
     phrases: dict[tuple[str, ...], frozenset[str]] = {}
     scripts: dict[str, frozenset[str]] = {}
     vague: dict[tuple[str, ...], frozenset[str]] = {}
-    own = {t: {"en": (t,)} for r in template.roles for t in r.name.split("_") if t not in _SIDES and t != "piston"}
+    unsure = {w for key, entry in template.words.items() if key.startswith(VAGUE) for ws in entry.values() for w in ws}
+    parts = {t for r in template.roles for t in r.name.split("_")} - {*_SIDES, "piston"} - unsure
+    own = {t: {"en": (t,)} for t in sorted(parts)}
     for table in (template.words, own, _common()):
         for key, entry in table.items():
             for word in (w for words in entry.values() for w in words):

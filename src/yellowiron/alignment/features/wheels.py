@@ -39,6 +39,11 @@ TREAD = 2.2
 """A tyre is no more than so much larger than the ring of its rim."""
 WIDER = 1.3
 """What is of a wheel is no more than so much wider than its ring."""
+FLAT = 2.2
+"""A wheel is no wider than so many of its radii."""
+ROUND, CORNERS = 0.96, 24
+"""What no round face is of is a ring if it is no narrower, seen from one side or another, than this share of its width
+from others, and has so many corners (a dodecagon is 0.966, an octagon 0.92)."""
 ASIDE, BESIDE = 0.02, 1.6
 """Twin tyres are this near to one axis, in radii, and this near to each other, in widths between their middles."""
 
@@ -67,7 +72,9 @@ def drums_of(solids: tuple[Solid, ...], count: int, taken: set[int], tolerance: 
             continue
         width = s.end - s.start
         centre = s.axis.center + 0.5 * (s.start + s.end) * s.axis.direction
-        if DRUM[0] * s.reach <= width <= DRUM[1] * s.reach and not any(_same_place(w, s.axis, centre) for w in found):
+        if DRUM[0] * s.reach <= width <= DRUM[1] * s.reach and not any(
+            _same_place(w, s.axis.direction, centre) for w in found
+        ):
             found.append(Wheel(frozenset({s.index}), s.index, centre, s.axis.direction, s.reach, width, True))
     return [_with_all_about(w, solids, taken, tolerance) for w in found[:count]]
 
@@ -79,24 +86,56 @@ def wheels_of(solids: tuple[Solid, ...], count: int, taken: set[int], tolerance:
     """
     if count == 0:
         return []
-    size = size_of(solids)
-    round_ones = [s for s in solids if s.axis is not None and s.index not in taken and s.reach > LEAST * size]
-    round_ones.sort(key=lambda s: (-round(s.reach, 5), s.index))
+    least = LEAST * size_of(solids)
+    rings = [ring for s in solids if s.index not in taken and (ring := _ring(s, least)) is not None]
+    rings.sort(key=lambda w: (-round(w.radius, 5), w.tyre))
     found: list[Wheel] = []
-    for s in round_ones:
-        assert s.axis is not None
-        width = s.end - s.start
-        flat = width < 2.2 * s.reach
-        centre = s.axis.center + 0.5 * (s.start + s.end) * s.axis.direction
-        if not flat or any(_same_place(w, s.axis, centre) for w in found):
+    for ring in rings:
+        if any(_same_place(w, ring.direction, ring.center) for w in found):
             continue
-        if found and s.reach < 0.45 * found[0].radius:
+        if found and ring.radius < 0.45 * found[0].radius:
             break
-        found.append(Wheel(frozenset({s.index}), s.index, centre, s.axis.direction, s.reach, width))
+        found.append(ring)
     equal = [w for w in found if any(v is not w and _alike(v, w) for v in found)]
     if len(equal) > count:
         equal = _twin_tyres(equal)
     return [_with_all_about(w, solids, taken, tolerance) for w in equal[:count]] if len(equal) >= 2 else []
+
+
+def _ring(solid: Solid, least: float) -> Wheel | None:
+    """A solid that is round and flat, of more than the `least` radius, as a wheel of its own: about its axis of
+    symmetry, or, where no face of it is round (a tyre that is all lugs), about the one that its outline is round
+    about."""
+    if solid.axis is not None:
+        center = solid.axis.center + 0.5 * (solid.start + solid.end) * solid.axis.direction
+        direction, radius, width = solid.axis.direction, solid.reach, solid.end - solid.start
+    elif (outline := _round_outline(solid, least)) is not None:
+        center, direction, radius, width = outline
+    else:
+        return None
+    flat = radius > least and width < FLAT * radius
+    return Wheel(frozenset({solid.index}), solid.index, center, direction, radius, width) if flat else None
+
+
+def _round_outline(solid: Solid, least: float) -> tuple[Floats, Floats, float, float] | None:
+    """Centre, axis, radius and width of what reaches equally far to all sides of an axis through its middle."""
+    points = solid.points
+    if len(points) < CORNERS or np.linalg.norm(solid.high - solid.low) < 2.0 * least:
+        return None
+    spread, axes = np.linalg.eigh(np.cov(points.T))
+    # Two of the three spreads are equal: the axis is the third's. It is the least of a ring, not of a drum.
+    direction = axes[:, 0] if spread[2] - spread[1] < spread[1] - spread[0] else axes[:, 2]
+    across = np.linalg.svd(direction[None, :])[2][1:]
+    flat, along = points @ across.T, points @ direction
+    turn = np.linspace(0.0, np.pi, 24, endpoint=False)
+    seen = flat @ np.array([np.cos(turn), np.sin(turn)])
+    low, high = seen.min(axis=0), seen.max(axis=0)
+    width = high - low
+    middle = 0.5 * np.array([low[0] + high[0], low[12] + high[12]])
+    if width.min() < ROUND * width.max():
+        return None
+    center = middle @ across + 0.5 * (along.min() + along.max()) * direction
+    return center, direction, 0.5 * float(width.max()), float(np.ptp(along))
 
 
 def _alike(one: Wheel, other: Wheel) -> bool:
@@ -124,8 +163,8 @@ def _twin_tyres(wheels: list[Wheel]) -> list[Wheel]:
     return joined
 
 
-def _same_place(wheel: Wheel, axis: Cyl, centre: Floats) -> bool:
-    if abs(float(axis.direction @ wheel.direction)) < SAME_DIRECTION:
+def _same_place(wheel: Wheel, direction: Floats, centre: Floats) -> bool:
+    if abs(float(direction @ wheel.direction)) < SAME_DIRECTION:
         return False
     delta = centre - wheel.center
     along = abs(float(delta @ wheel.direction))
@@ -136,8 +175,9 @@ def _same_place(wheel: Wheel, axis: Cyl, centre: Floats) -> bool:
 def _with_all_about(wheel: Wheel, solids: tuple[Solid, ...], taken: set[int], tolerance: float) -> Wheel:
     """Everything round about the wheel's axis that is mostly between its sides; and what is about it, as high as it is
     long, and wholly between them: rims of spokes, hubs with their bolts, a tyre whose tread is not round."""
-    axis = solids[wheel.tyre].axis
-    assert axis is not None
+    axis = solids[wheel.tyre].axis or Cyl(
+        wheel.center, wheel.direction, wheel.radius, 0.5 * wheel.width, 2.0 * np.pi, inner=False
+    )
     members = set(wheel.members)
     half, radius = 0.5 * wheel.width, wheel.radius
     for s in solids:
