@@ -3,7 +3,8 @@
 from __future__ import annotations
 
 from dataclasses import replace
-from typing import cast
+from types import SimpleNamespace
+from typing import Any, cast
 
 import numpy as np
 import pytest
@@ -18,7 +19,7 @@ from yellowiron.alignment import align
 from yellowiron.alignment.assignment.answer import Answer
 from yellowiron.alignment.features.solids import size_of, solids_of
 from yellowiron.alignment.fusion.annealing import Annealing, against, labelled, leads
-from yellowiron.alignment.fusion.bonds import ENOUGH, Bond, _together, out_of_line
+from yellowiron.alignment.fusion.bonds import ENOUGH, Bond, _together, _welded, out_of_line
 from yellowiron.alignment.fusion.judge import field_of, score_of
 from yellowiron.alignment.fusion.pieces import Piece, leading
 from yellowiron.alignment.fusion.reading import CONTRARY
@@ -225,6 +226,14 @@ def test_what_is_called_the_left_one_may_be_the_right_one() -> None:
     assert left == {"front_wheel_l": 1.0, "front_wheel_r": LENT}
     assert right == {"front_wheel_r": 1.0, "front_wheel_l": LENT}
     assert bucket == said[2]
+
+
+@pytest.mark.parametrize(("surfaces", "told"), [((5.0, 1.0, 4.0), True), ((5.0, 4.0, 1.0), False)])
+def test_contacts_that_make_one_body_of_most_of_a_machine_say_nothing(surfaces: tuple[float, ...], told: bool) -> None:
+    """A carriage that slides on its mast, and this on the chassis without pins, was one body with them."""
+    observation: Any = SimpleNamespace(solids=[SimpleNamespace(surface=area) for area in surfaces])
+    structure: Any = SimpleNamespace(clusters=[SimpleNamespace(members={0, 1}), SimpleNamespace(members={2})])
+    assert _welded(observation, structure) == ({0: 0, 1: 0, 2: 1} if told else {2: 1})
 
 
 def test_small_pieces_play_what_nothing_large_is_named_for() -> None:

@@ -54,6 +54,19 @@ def test_a_bucket_on_the_ground_does_not_move_the_middle_of_the_stand(ahead: flo
     assert stance.origin[2] == pytest.approx(0.0, abs=0.06)
 
 
+def test_a_machine_on_three_wheels_stands_on_the_one_in_its_middle_too() -> None:
+    """A forklift was looked for a wheelbase farther ahead, about its front axle."""
+    quarter = trimesh.transformations.rotation_matrix(np.pi / 2, [1, 0, 0])
+    tyre = trimesh.creation.cylinder(0.3, 0.25, sections=48, transform=quarter)
+    machine = solids(
+        (box(2.4, 1.2, 1.0), (0.0, 0.0, 0.9)), (box(0.2, 1.0, 2.0), (1.3, 0.0, 1.2)),
+        *((tyre, at) for at in ((1.0, 0.55, 0.3), (1.0, -0.55, 0.3), (-0.9, 0.0, 0.3))),
+    )  # fmt: skip
+    stance = stance_of(machine, size_of(machine))
+    assert abs(stance.rotation[0] @ [1.0, 0.0, 0.0]) == pytest.approx(1.0)
+    assert stance.origin[0] == pytest.approx(0.05, abs=0.1)
+
+
 def test_it_stands_in_the_middle_of_its_wheels() -> None:
     rotation = np.eye(3)
     stance = Stance(rotation, np.array([1.0, 0.2, -0.3]), 8.0, 0.9)
