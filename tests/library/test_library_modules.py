@@ -20,6 +20,7 @@ from yellowiron.library.composing.modules import modules
 from yellowiron.library.notation.validated_json import read_json
 from yellowiron.library.type_folders import library_folder, module_files
 from yellowiron.model.errors import TemplateError
+from yellowiron.model.template import choose
 
 DATA = Path(__file__).resolve().parent.parent / "data" / "templates"
 KEPT = json.loads((DATA / "types_as_they_were.json").read_text(encoding="utf-8"))
@@ -200,3 +201,39 @@ def test_layers() -> None:
         {"base": {"child": {"row[*]": {}}}, "x": {"parent": "row"}, "y": {"parent": "x"}, "z": {"parent": "?"}}
     )
     assert tree == {"base": {"child": {"row[*]": {"child": {"x": {"child": {"y": {}}}}}}}, "z": {"parent": "?"}}
+
+
+def test_a_template_begun_with_modules_is_sound(tmp_path: Path) -> None:
+    """Its bodies are written where no module brings them; values that are numbers stay so."""
+    hoist = "cylinder:name=hoist,from=base,to=arm,stroke=Hoist Stroke,actuator=hoist,stiffness=1e7"
+    folder = library.compose_template(tmp_path / "hoist", modules=["hinge:on=base,body=arm", hoist])
+    template = library.load_template(folder)
+    assert (template.equipment_type, template.root, library.lint(template).sound) == ("hoist", "base", True)
+    assert template.joints[-1].stiffness == 1e7
+    assert set(uses_of(folder)) == {"hinge", "cylinder"}
+
+
+def test_a_type_like_another_with_a_blade(tmp_path: Path) -> None:
+    """A few lines: everything of the wheel loader, and a lever more where the blade is fitted."""
+    folder = library.compose_template(tmp_path / "dozing", like="wheel_loader", modules=["blade:on=front_frame"])
+    assert sum(len(file.read_text(encoding="utf-8")) for file in folder.iterdir()) < 600
+    template, loader = library.load_template(folder), library.load_template("wheel_loader")
+    assert {j.name for j in loader.joints} < {j.name for j in template.joints}
+    assert template.wanted == loader.wanted and template.measurements == loader.measurements
+    report = library.lint(choose(template, {"blade": "fitted"}))
+    assert report.sound and {(m.computed, m.expected) for m in report.mobility} == {(9, 9)}
+
+
+@pytest.mark.parametrize(
+    ("like", "with_", "words"),
+    [
+        ("wheel_loade", [], "no equipment type"),
+        (None, [], "nothing to write"),
+        (None, ["hinge:on"], "no parameter and value"),
+        (None, ["hing:on=a"], "no module 'hing'"),
+    ],
+)
+def test_what_no_template_comes_of_is_said(tmp_path: Path, like: str | None, with_: list[str], words: str) -> None:
+    with pytest.raises(TemplateError, match=words):
+        library.compose_template(tmp_path / "new", like=like, modules=with_)
+    assert not (tmp_path / "new").exists()

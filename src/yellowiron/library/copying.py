@@ -2,13 +2,13 @@
 
 from __future__ import annotations
 
-import json
 import shutil
 from pathlib import Path
 from typing import Any
 
 from yellowiron.library.composing.documents import is_whole, template_documents
 from yellowiron.library.load import load_template
+from yellowiron.library.notation.written import document_text
 from yellowiron.library.parsing.wanted import complete
 from yellowiron.library.type_folders import documents_in, find_template
 from yellowiron.model.errors import OutputError
@@ -37,7 +37,7 @@ def copy_template(type_or_folder: str | Path, folder: str | Path) -> Path:
             (staged / name).parent.mkdir(parents=True, exist_ok=True)
             shutil.copyfile(file, staged / name)
         for kind, content in written.items():
-            (staged / f"{kind}.json").write_text(_text(content) + "\n", encoding="utf-8")
+            (staged / f"{kind}.json").write_text(document_text(content) + "\n", encoding="utf-8")
     return target
 
 
@@ -63,12 +63,3 @@ def _written_out(source: Path) -> dict[str, Any]:
     documents = template_documents(source)
     whole = {kind: complete(document) if kind == "wanted" else document for kind, document in documents.items()}
     return {kind: whole[kind].data for kind in whole if not is_whole(source, kind) or whole[kind] != documents[kind]}
-
-
-def _text(value: Any, indent: str = "") -> str:
-    """JSON with one line for each key, and lists on one line, as the library's own documents are written."""
-    if not isinstance(value, dict):
-        return json.dumps(value, ensure_ascii=False)
-    inner = indent + "  "
-    lines = [f"{inner}{json.dumps(key, ensure_ascii=False)}: {_text(item, inner)}" for key, item in value.items()]
-    return "\n".join(("{", ",\n".join(lines), indent + "}"))

@@ -43,7 +43,7 @@ def is_whole(folder: Path, kind: str) -> bool:
 
 def uses_of(folder: Path) -> Mapping[str, Any]:
     """What a template's `modules.json` uses, and how: name → module and parameters; nothing where it has none."""
-    path = documents_in(folder).get(_MODULES)
+    path = documents_in(folder).get(_MODULES) if folder.is_dir() else None
     return {} if path is None else check_document(path, _layered(folder, _MODULES, (), {}, bare=True), _MODULES).data
 
 
