@@ -14,7 +14,13 @@ from yellowiron.library.notation.validated_json import Document, near, read_docu
 from yellowiron.library.parsing.actuators import read_actuators
 from yellowiron.library.parsing.hierarchy import read_hierarchy, read_relations, root_of
 from yellowiron.library.parsing.implied_hierarchy import infer_actuators, infer_roles
-from yellowiron.library.parsing.joints import check_bodies, read_joints, resolve_leaders, resolve_parts
+from yellowiron.library.parsing.joints import (
+    check_bodies,
+    positions_chosen,
+    read_joints,
+    resolve_leaders,
+    resolve_parts,
+)
 from yellowiron.library.parsing.machine_tests import read_tests
 from yellowiron.library.parsing.materials import read_material
 from yellowiron.library.parsing.measurements import read_measurements
@@ -88,6 +94,14 @@ def _assemble(documents: Mapping[str, Document], folder: Path) -> Template:
         roles, root = _roles(documents, joints)
     variants = read_variants(documents["variants"]) if "variants" in documents else ()
     joints = _resolved(documents["joints"], joints, roles)
+    positions = positions_chosen(joints)
+    if twice := {v.name for v in variants} & {v.name for v in positions}:
+        raise TemplateError(
+            f"A variant and a joint's positions are both called '{min(twice)}'",
+            where=documents["joints"].at(f"{min(twice)}_joint", "positions"),
+            hint="Give one of them another name.",
+        )
+    variants += positions
 
     template = Template(
         equipment_type=_equipment_type(roles, folder),

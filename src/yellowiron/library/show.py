@@ -102,6 +102,7 @@ def _joint(joint: JointTemplate, other: str) -> Text:
     words += _when(joint.drive_when, "driven where ") if joint.drive else []
     words += ["closed to a ring"] if joint.ring else []
     words += [joint.follows.words] if joint.follows else []
+    words += [f"held as drawn, or {', '.join(joint.positions)}"] if joint.positions else []
     words += ["free"] if joint.free and (joint.drive is None or joint.drive_when) else []
     words += _when(joint.when)
     return Text.assemble((joint.name, "cyan"), (f"  {', '.join(words)}", "dim"))

@@ -13,6 +13,7 @@ import numpy as np
 from yellowiron.kinematics.solver.chain import ClosedChain, State
 from yellowiron.model.geometry import Floats
 from yellowiron.model.mechanism import Body, Joint, Mechanism, Site
+from yellowiron.support.vectors import triple
 
 _AXES = {"x": 0, "y": 1, "z": 2}
 _ON_EDGE = 1e-9
@@ -190,7 +191,7 @@ def _roll(quantity: Mapping[str, Any], posed: Posed) -> float:
     size = float(np.linalg.norm(left))
     if size < _UPRIGHT:
         raise Unmeasurable(f"the site '{site.name}' looks straight up or down")
-    side = posed.direction(site.body, left / size)
+    side = posed.direction(site.body, triple(left / size))
     return math.atan2(-float(side[2]), math.hypot(side[0], side[1]))
 
 
