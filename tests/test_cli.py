@@ -17,6 +17,7 @@ import pytest
 from kit.builds import console
 from yellowiron.cli import app
 from yellowiron.cli.telling import progress_shown, telling
+from yellowiron.model.errors import YellowironError
 
 pytestmark = pytest.mark.usefixtures("cad_read_once")
 
@@ -34,6 +35,17 @@ def test_templates_list_and_show(capsys: pytest.CaptureFixture[str]) -> None:
     code, shown = _asked(capsys, "templates", "show", "wheel_loader")
     assert code == 0 and shown["equipment_type"] == "wheel_loader" and shown["root"] == "rear_frame"
     assert {"boom", "boom_pin"} <= {role["name"] for role in shown["roles"]}
+    assert shown["modules"]["bucket"] == {"module": "z_bar", "frame": "front_frame", "arm": "boom"}
+    assert "rocker" in listed["modules"]["z_bar"]
+
+
+def test_a_new_template_without_a_cad_model(capsys: pytest.CaptureFixture[str], tmp_path: Path) -> None:
+    words = ("--with", "hinge:on=base,body=arm", "--with", "cylinder:name=lift,from=base,to=arm,stroke=S,actuator=lift")
+    code, made = _asked(capsys, "templates", "new", "lifter", *words, "--out", tmp_path / "lifter")
+    assert code == 0 and [m["computed"] for m in made["mobility"]] == [1]
+    assert (tmp_path / "lifter" / "modules.json").is_file() and set(made["modules"]) == {"hinge", "cylinder"}
+    with pytest.raises(YellowironError, match="proposed from a CAD model, or begun"):
+        app(["templates", "new", "lifter", "--from", "a.step"], standalone_mode=False)
 
 
 def test_a_copy_says_where_it_is(capsys: pytest.CaptureFixture[str], tmp_path: Path) -> None:

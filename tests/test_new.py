@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import json
 import math
+import re
 from collections.abc import Callable, Sequence
 from dataclasses import replace
 from pathlib import Path
@@ -39,6 +40,10 @@ def telescope() -> Assembly:
 
 def build(folder: Path, file: Path, out: Path, *, settings: Sequence[str] = ()) -> Any:
     return yellowiron.build(folder, file, out, settings=settings)
+
+
+def physics(machine: Any) -> str:
+    return str((machine.folder / "payloads" / "physics.usda").read_text(encoding="utf-8"))
 
 
 def test_a_template_is_written_and_sound(drawn: Drawn, tmp_path: Path) -> None:
@@ -127,6 +132,47 @@ def test_a_telescopic_crane_builds(drawn: Drawn, tmp_path: Path) -> None:
         j["upper"] - j["lower"] == pytest.approx(1.0 if "piston" not in j["name"] and "rod" not in j["name"] else 0.5)
         for j in slides
     )
+
+
+def test_a_section_that_is_pinned_in_another_hole(drawn: Drawn, tmp_path: Path) -> None:
+    """`positions`: nothing moves on the joint, in the template, the machine, USD and MJCF; `--set` draws what stands on
+    it out, along the slide, and the rest as it was."""
+    drawn(telescope())
+    new_template("crane.step", tmp_path / "new")
+    joints = json.loads((tmp_path / "new" / "joints.json").read_text(encoding="utf-8"))
+    levers = json.loads((tmp_path / "new" / "actuators.json").read_text(encoding="utf-8"))
+    cylinders = {c["slide"] for lever in levers.values() for c in lever.get("cylinders", ())}
+    slides = [n for n, j in joints.items() if j["joint_type"].lower() == "prismatic" and n not in cylinders]
+    pinned = slides[-1]
+    joints[pinned].pop("Drive")
+    joints[pinned].pop("Limit")
+    joints[pinned]["positions"] = {"out": "400 mm", "far": 0.9}
+    levers = {n: lever for n, lever in levers.items() if pinned not in lever.get("joints", ())}
+    for name, document in (("joints", joints), ("actuators", levers)):
+        (tmp_path / "new" / f"{name}.json").write_text(json.dumps(document), encoding="utf-8")
+    template = library.load_template(tmp_path / "new")
+    variant = pinned.removesuffix("_joint")
+    assert [(v.name, v.choices, v.default) for v in template.variants] == [(variant, ("drawn", "out", "far"), "drawn")]
+    report = library.lint(template)
+    assert report.sound and {(m.computed, m.expected) for m in report.mobility} == {(3, 3)}
+    wanted = json.loads((tmp_path / "new" / "wanted.json").read_text(encoding="utf-8"))
+    given = [f"{name}=0.5 m" for name in wanted if "Travel" in name or "Stroke" in name]
+    machines = {
+        place: build(tmp_path / "new", Path("crane.step"), tmp_path / place, settings=[*given, f"{variant}={place}"])
+        for place in ("drawn", "out")
+    }
+    centres = []
+    for place, machine in machines.items():
+        assert machine.document["mobility"] == {**machine.document["mobility"], "computed": 3, "expected": 3}
+        assert machine.document["counts"]["fixed"] == 1 and machine.document["counts"]["prismatic"] == 2
+        centres.append({b.name: np.array(b.center_of_mass) for b in machine.mechanism.bodies})
+        sections = yellowiron.export(machine, tmp_path / f"{place}_mjcf").read_text(encoding="utf-8")
+        assert pinned not in re.findall(r'<joint name="([^"]+)"', sections) and len(slides) == 2
+        assert pinned in re.findall(r'def PhysicsFixedJoint "([^"]+)"', physics(machine))
+    moved = {name: float(np.linalg.norm(centres[1][name] - centres[0][name])) for name in centres[0]}
+    assert sorted(by for by in moved.values() if by > 1e-9) == pytest.approx([0.4])
+    codes = {f["code"] for f in machines["out"].document["findings"] if f["where"] == pinned}
+    assert "KIN012" in codes and "KIN012" not in {f["code"] for f in machines["drawn"].document["findings"]}
 
 
 @pytest.mark.slow

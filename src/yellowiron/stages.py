@@ -35,7 +35,7 @@ from yellowiron.model.geometry import Floats
 from yellowiron.model.mechanism import Mechanism
 from yellowiron.model.rows import expand
 from yellowiron.model.specification import Specifications, fold
-from yellowiron.model.template import Template, choose
+from yellowiron.model.template import Template, choose, in_position
 from yellowiron.solved import Solved
 from yellowiron.support.caching.disk import kept
 from yellowiron.support.caching.recent import recent
@@ -54,7 +54,7 @@ def solve(
     the machine brought to a pose within its limits."""
     chosen = as_said(template, alignment, {**alignment.choices, **choices})
     specifications = _missed(specifications, template, chosen)
-    template = expand(chosen, alignment.counts)
+    template = in_position(expand(chosen, alignment.counts))
     alignment, tape = on_sheet(assembly, template, alignment, specifications, data)
     mechanism = complete_mechanism(assembly, template, alignment, specifications, data)
     compared = compare_declared(mechanism, assembly, alignment)
@@ -62,9 +62,10 @@ def solve(
     if lent.values:
         specifications = specs.merge(lent, specifications)
         mechanism = complete_mechanism(assembly, template, alignment, specifications, data)
-    start = kinematics.legal_start(mechanism)
+    start = kinematics.legal_start(mechanism, {j.name: j.at for j in template.joints if j.at})
     if start is not None:
         assembly, template, alignment = kinematics.started(assembly, template, alignment, start)
+        template = in_position(template)
         mechanism = complete_mechanism(assembly, template, alignment, specifications, data)
         mechanism = replace(mechanism, findings=(*mechanism.findings, *start.findings))
     mechanism = replace(mechanism, findings=(*mechanism.findings, *tape))

@@ -12,7 +12,8 @@ from planar_zbar import direction, sketch, strokes, with_measurements, zbar_mech
 from scipy.optimize import brentq
 
 from yellowiron.kinematics import ClosedChain, calibrate, complete, key_poses, lever_table, measure
-from yellowiron.kinematics.measuring.quantities import KINDS, Hulls, wheels
+from yellowiron.kinematics.measuring.quantities import KINDS, Hulls, Posed, evaluate, wheels
+from yellowiron.model.mechanism import Site
 from yellowiron.model.template import MeasurementTemplate
 from yellowiron.support.text import plain
 
@@ -58,6 +59,18 @@ TEMPLATES = [
     template("overhang", {"kind": "overhang", "joint": "rear_wheel_l_joint", "of": "min", "bodies": ["rear_frame"]}),
     template("tyres", {"kind": "tyre_diameter"}),
     template("approach", {"kind": "approach_angle", "bodies": ["bucket"]}, {"set": {"boom": "max", "bucket": "max"}}),
+    template(
+        "edge below hinge",
+        {"kind": "difference", "quantities": [{"kind": "height", "joint": "bucket_pin"}, EDGE]},
+        {"set": {"boom": "max"}},
+        solve(("bucket", PITCH, DOWN)),
+    ),
+    template(
+        "hinge over edge, solved",
+        PITCH,
+        {"set": {"boom": "max"}},
+        solve(("bucket", {"kind": "difference", "quantities": [{"kind": "height", "joint": "bucket_pin"}, EDGE]}, 0.5)),
+    ),
 ]
 
 
@@ -111,6 +124,8 @@ def expected(z, travel) -> dict[str, float]:
         "overhang": 2.3,
         "tyres": 1.6,
         "approach": approach,
+        "edge below hinge": dumped["B"][1] - dumped["T"][1],
+        "hinge over edge, solved": -math.asin(0.5 / np.hypot(*(top["T"] - top["B"]))),
     }
 
 
@@ -304,3 +319,33 @@ def test_hulls_are_where_their_bodies_stand(mechanism):
             np.testing.assert_array_equal(hulls.box(state, body), [corners.min(axis=0), corners.max(axis=0)])
     apart = [np.abs(hulls.corners(chain.drawn, b) - b.hull).max() for b in mechanism.bodies if len(b.hull)]
     assert max(apart) < 1e-9
+
+
+def test_roll_and_the_angle_between_two_sites(mechanism):
+    """Of a loader on a steered hinge: nothing rolls, and frames that are bent by 0.6 rad look 0.6 rad apart. A body
+    drawn on a lengthwise pivot rolls as far as that turns, its left side down."""
+    sites = (Site("front", "front_frame", (0.0, 0.0, 1.0)), Site("rear", "rear_frame", (0.0, 0.0, 1.0)))
+    sites += (Site("axle", "axle", (-1.7, 0.0, 0.8)), Site("up", "axle", (0.0, 0.0, 0.0), (0.0, 0.0, 1.0)))
+    axle = mechanism.joint("axle_joint")
+    sites = tuple(replace(site, body=axle.body1) if site.body == "axle" else site for site in sites)
+    asked = [
+        template("bend", {"kind": "between", "sites": ["front", "rear"]}, {"set": {"steering": "min"}}),
+        template("level", {"kind": "roll", "site": "front"}, {"set": {"steering": "max"}}),
+        template("none", {"kind": "roll", "site": "up"}),
+        template("one", {"kind": "between", "sites": ["front"]}),
+    ]
+    machine = with_measurements(replace(mechanism, sites=(*mechanism.sites, *sites)), asked, {})
+    found = {m.name: m for m in measure(machine)}
+    assert found["bend"].model == pytest.approx(0.6, abs=1e-9)
+    assert found["level"].model == pytest.approx(0.0, abs=1e-9)
+    assert "straight up or down" in found["none"].reason and "needs two sites" in found["one"].reason
+    chain = ClosedChain(machine)
+    sense = 1.0 if axle.axis[0] > 0.0 else -1.0
+    rolled = [bench_value(chain, machine, {"kind": "roll", "site": "axle"}, {"axle_joint": q}) for q in (0.1, -0.05)]
+    assert rolled == pytest.approx([-0.1 * sense, 0.05 * sense], abs=1e-9)
+
+
+def bench_value(chain, machine, quantity, coordinates):
+    state = chain.solve(coordinates)
+    posed = Posed(chain, machine, state, lambda name: 0.0, wheels(machine), Hulls(chain), lambda steps: state)
+    return evaluate(quantity, posed)

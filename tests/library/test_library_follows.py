@@ -15,7 +15,16 @@ from yellowiron import library
 from yellowiron.library.show import tree
 from yellowiron.model.errors import TemplateError
 from yellowiron.model.specification import Specifications
-from yellowiron.model.template import ActuatorTemplate, Follows, JointTemplate, Role, Template, by_first_leader
+from yellowiron.model.template import (
+    ActuatorTemplate,
+    Follows,
+    JointTemplate,
+    Role,
+    Template,
+    by_first_leader,
+    choose,
+    in_position,
+)
 
 
 @pytest.fixture
@@ -172,3 +181,33 @@ def test_a_chain_of_leaders_as_one() -> None:
     every = {"b": Follows("a", 2.0, 1.0), "c": Follows("b", 3.0, 0.5, "rope")}
     assert by_first_leader("c", every) == Follows("a", 6.0, 3.5, "rope")
     assert by_first_leader("b", every) == every["b"]
+
+
+@pytest.mark.parametrize(
+    ("entry", "words"),
+    [
+        ({"joint_type": "Prismatic", "Drive": ["Linear Drive"]}, "held in positions, and moves"),
+        ({"joint_type": "Spherical"}, "is spherical and has positions"),
+        ({"joint_type": "Prismatic", "positions": {"drawn": 0}}, "the position that the CAD model shows"),
+        ({"joint_type": "Prismatic", "positions": {"out": "3 deg"}}, "not a quantity of dimension length"),
+    ],
+)
+def test_positions_that_cannot_be_are_said(tmp_path: Path, entry: dict[str, object], words: str) -> None:
+    joint = {"positions": {"out": "1 m"}, **entry, "Body": ["base", "section"]}
+    (tmp_path / "joints.json").write_text(json.dumps({"base2section_joint": joint}), encoding="utf-8")
+    with pytest.raises(TemplateError, match=words) as found:
+        library.load_template(tmp_path)
+    assert "base2section_joint.positions" in str(found.value.where)
+
+
+def test_a_joint_in_positions_is_a_variant_of_its_name(tmp_path: Path) -> None:
+    joint = {"joint_type": "Revolute", "Body": ["base", "jib"], "positions": {"raised": 20, "high": "40 deg"}}
+    (tmp_path / "joints.json").write_text(json.dumps({"base2jib_joint": joint}), encoding="utf-8")
+    template = library.load_template(tmp_path)
+    places = {c: choose(template, {"base2jib": c}).joints[0].at for c in template.variants[0].choices}
+    assert places == pytest.approx({"drawn": 0.0, "raised": math.radians(20.0), "high": math.radians(40.0)})
+    welded = in_position(choose(template, {})).joints[0]
+    assert (welded.type, welded.free) == ("fixed", False)
+    (tmp_path / "variants.json").write_text('{"base2jib": {"choices": ["a", "b"], "default": "a"}}', encoding="utf-8")
+    with pytest.raises(TemplateError, match="both called 'base2jib'"):
+        library.load_template(tmp_path)

@@ -15,7 +15,7 @@ from hypothesis import strategies as st
 from rich.console import Console
 
 from yellowiron import library
-from yellowiron.library.alike import is_like, template_document
+from yellowiron.library.composing.documents import template_documents
 from yellowiron.library.notation.quantities import limit, number_text, quantity
 from yellowiron.library.notation.validated_json import read_json
 from yellowiron.library.type_folders import DOCUMENTS, library_folder
@@ -44,16 +44,19 @@ def test_type_in_any_spelling(name: str, loader: Template) -> None:
 
 @pytest.mark.parametrize("equipment_type", library.list_templates())
 def test_library_documents_are_valid_as_they_are_written(equipment_type: str) -> None:
-    """Our own files need no folding: an editor with the published schema accepts them, put on top of those they are
-    like."""
-    for path in sorted((library_folder() / equipment_type).glob("*.json")):
+    """Our own files need no folding: an editor with the published schema accepts them, those that are like another
+    type's too, and what they come to."""
+    folder = library_folder() / equipment_type
+    for path in sorted(folder.glob("*.json")):
         assert path.stem in DOCUMENTS
-        written = template_document(path, path.stem).data if is_like(path) else read_json(path)
-        jsonschema.validate(written, library.template_schema(path.stem))
+        if not (folder / "modules.json").is_file() or path.stem == "modules":
+            jsonschema.validate(read_json(path), library.template_schema(path.stem))
+    for kind, document in template_documents(folder).items():
+        jsonschema.validate(document.data, library.template_schema(kind))
 
 
 def test_schemas_are_schemas() -> None:
-    for kind in (*DOCUMENTS, "joint_overrides", "common"):
+    for kind in (*DOCUMENTS, "joint_overrides", "common", "module"):
         jsonschema.Draft202012Validator.check_schema(library.template_schema(kind))
 
 
@@ -135,8 +138,7 @@ def test_materials_and_collision_reach_every_role(loader: Template) -> None:
 
 
 def test_every_number_of_a_material_has_a_source() -> None:
-    materials = json.loads((library_folder() / "wheel_loader" / "materials.json").read_text(encoding="utf-8"))
-    for name, entry in materials.items():
+    for name, entry in template_documents(library_folder() / "wheel_loader")["materials"].data.items():
         remarks = " ".join(entry["source"])
         for key in entry.keys() - {"name", "source"}:
             assert key.split()[-1] in remarks, (name, key)

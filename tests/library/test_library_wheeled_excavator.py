@@ -82,7 +82,7 @@ def test_a_document_is_not_like_itself(tmp_path: Path, monkeypatch: pytest.Monke
     for folder, other in zip(types.values(), reversed(types), strict=True):
         folder.mkdir()
         (folder / "joints.json").write_text(json.dumps({"like": other}), encoding="utf-8")
-    monkeypatch.setattr("yellowiron.library.alike.type_folders", lambda: types)
+    monkeypatch.setattr("yellowiron.library.composing.documents.type_folders", lambda: types)
     with pytest.raises(TemplateError, match="like itself"):
         library.load_template(types["one"])
 

@@ -33,13 +33,16 @@ class Start:
     closed: bool = True
 
 
-def legal_start(mechanism: Mechanism) -> Start | None:
-    """The nearest pose in which no driven joint is outside its limits and every joint that follows is where its leader
-    puts it; None where the drawn pose is one.
+def legal_start(mechanism: Mechanism, held: Mapping[str, float] | None = None) -> Start | None:
+    """The nearest pose in which no driven joint is outside its limits, every joint that follows is where its leader
+    puts it, and every joint that is `held` in another position than drawn (from there, m or rad) is in it; None where
+    the drawn pose is one.
 
     A joint whose limit cannot be reached on this branch of its loop stays where the linkage locks, with a finding.
     """
     wanted = {j.name: target for j in mechanism.joints if (target := _target(j)) is not None}
+    held = {name: place for name, place in (held or {}).items() if any(j.name == name for j in mechanism.joints)}
+    wanted |= held
     led = {j.name: j.follows for j in mechanism.joints if j.follows is not None and j.follows.offset}
     if not wanted and not led:
         return None
@@ -52,6 +55,11 @@ def legal_start(mechanism: Mechanism) -> Start | None:
     findings = []
     for name, value in coordinates.items():
         joint = mechanism.joint(name)
+        if name in held:
+            words = f"It is held {_shown(joint, value)} from where it is drawn: the machine starts there."
+            hint = "Another of its positions is chosen with --set; 'drawn' is the CAD model's."
+            findings.append(Finding("KIN012", "info", name, words, hint))
+            continue
         words = f"It is drawn outside its limits {_range(joint)}: the machine starts {_shown(joint, value)} from there."
         hint = "Check the limits, stroke and closed length, or draw a legal pose."
         findings.append(Finding("KIN012", "warning", name, words, hint))
@@ -87,6 +95,8 @@ def started(
     for joint in template.joints:
         if joint.follows is not None and start.closed:
             joint = replace(joint, follows=replace(joint.follows, offset=0.0))
+        if joint.at and start.closed:
+            joint = replace(joint, at=0.0)
         by = start.coordinates.get(joint.name, 0.0) if joint.name not in rams else 0.0
         lower = joint.lower - by if isinstance(joint.lower, float) else joint.lower
         upper = joint.upper - by if isinstance(joint.upper, float) else joint.upper

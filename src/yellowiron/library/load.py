@@ -8,13 +8,19 @@ from dataclasses import replace
 from pathlib import Path
 from typing import Any
 
-from yellowiron.library.alike import template_document
+from yellowiron.library.composing.documents import files_behind, template_documents
 from yellowiron.library.notation.role_keys import by_role
 from yellowiron.library.notation.validated_json import Document, near, read_document
 from yellowiron.library.parsing.actuators import read_actuators
 from yellowiron.library.parsing.hierarchy import read_hierarchy, read_relations, root_of
 from yellowiron.library.parsing.implied_hierarchy import infer_actuators, infer_roles
-from yellowiron.library.parsing.joints import check_bodies, read_joints, resolve_leaders, resolve_parts
+from yellowiron.library.parsing.joints import (
+    check_bodies,
+    positions_chosen,
+    read_joints,
+    resolve_leaders,
+    resolve_parts,
+)
 from yellowiron.library.parsing.machine_tests import read_tests
 from yellowiron.library.parsing.materials import read_material
 from yellowiron.library.parsing.measurements import read_measurements
@@ -23,7 +29,7 @@ from yellowiron.library.parsing.usual import read_usual
 from yellowiron.library.parsing.variants import check_choices, read_variants
 from yellowiron.library.parsing.wanted import read_wanted
 from yellowiron.library.parsing.words import read_words
-from yellowiron.library.type_folders import documents_in, find_template
+from yellowiron.library.type_folders import BUILDS, documents_in, find_template
 from yellowiron.model.errors import TemplateError
 from yellowiron.model.specification import fold
 from yellowiron.model.template import JointTemplate, Role, Template
@@ -43,9 +49,10 @@ def load_template(type_or_folder: str | Path, *, sheet_only: bool = False) -> Te
     if folder.is_file():
         return _assemble({"joints": read_document(folder, "joints")}, folder)
     paths = documents_in(folder)
-    if "joints" not in paths and "wanted" in paths:
+    builds = any(kind in paths for kind in BUILDS)
+    if not builds and "wanted" in paths:
         if sheet_only:
-            wanted = read_wanted(template_document(paths["wanted"], "wanted"), ())
+            wanted = read_wanted(template_documents(folder)["wanted"], ())
             return Template(folder.resolve().name, str(folder), "", (), (), wanted=wanted)
         raise TemplateError(
             f"The type {folder.resolve().name} is sheet-only so far: its template says what to ask a sheet for and has "
@@ -53,20 +60,27 @@ def load_template(type_or_folder: str | Path, *, sheet_only: bool = False) -> Te
             where=str(folder),
             hint="Use `yellowiron extract`, or begin a template with `yellowiron templates new --from CAD --out DIR`.",
         )
-    if "joints" not in paths:
+    if not builds:
         raise TemplateError(
             "The folder is no template: it has no joints.json",
             where=str(folder),
             hint="Begin with `yellowiron templates copy TYPE FOLDER`.",
         )
-    seen = ((path, path.stat()) for path in paths.values())
-    return _read(folder, tuple(paths.items()), tuple((there.st_mtime_ns, there.st_size) for _, there in seen))
+    seen = ((path, path.stat()) for path in files_behind(folder))
+    return _read(folder, tuple((path, there.st_mtime_ns, there.st_size) for path, there in seen))
 
 
 @functools.lru_cache(maxsize=16)
-def _read(folder: Path, paths: tuple[tuple[str, Path], ...], seen: tuple[tuple[int, int], ...]) -> Template:
-    """The template of some documents, once while they are as they were `seen`: when changed last, how large."""
-    documents = {kind: template_document(path, kind) for kind, path in paths}
+def _read(folder: Path, seen: tuple[tuple[Path, int, int], ...]) -> Template:
+    """The template of a folder, once while all files behind it are as they were `seen`: when changed last, how
+    large."""
+    documents = template_documents(folder)
+    if "joints" not in documents:
+        raise TemplateError(
+            "The template has no joints",
+            where=str(folder / "modules.json"),
+            hint="Use a module that brings some, or write a joints.json.",
+        )
     return kept("templates", lambda: _assemble(documents, folder), documents, folder)
 
 
@@ -80,6 +94,14 @@ def _assemble(documents: Mapping[str, Document], folder: Path) -> Template:
         roles, root = _roles(documents, joints)
     variants = read_variants(documents["variants"]) if "variants" in documents else ()
     joints = _resolved(documents["joints"], joints, roles)
+    positions = positions_chosen(joints)
+    if twice := {v.name for v in variants} & {v.name for v in positions}:
+        raise TemplateError(
+            f"A variant and a joint's positions are both called '{min(twice)}'",
+            where=documents["joints"].at(f"{min(twice)}_joint", "positions"),
+            hint="Give one of them another name.",
+        )
+    variants += positions
 
     template = Template(
         equipment_type=_equipment_type(roles, folder),

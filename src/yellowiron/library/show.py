@@ -2,6 +2,9 @@
 
 from __future__ import annotations
 
+from collections.abc import Mapping
+from typing import Any
+
 from rich.text import Text
 from rich.tree import Tree
 
@@ -12,9 +15,9 @@ from yellowiron.model.template import Choices, JointTemplate, Role, Template
 from yellowiron.support.units import SI_UNIT
 
 
-def tree(template: Template) -> Tree:
+def tree(template: Template, uses: Mapping[str, Mapping[str, Any]] | None = None) -> Tree:
     """The hierarchy with, under each body, its joints (type, other body, pin, limits, drive); of a type known by
-    its sheet only, what the sheet is asked for."""
+    its sheet only, what the sheet is asked for. `uses`: the modules that it is put together from."""
     top = Tree(Text(template.equipment_type, style="bold"))
     if template.sheet_only:
         asked = top.add(Text("asked of a sheet", style="italic"))
@@ -38,7 +41,16 @@ def tree(template: Template) -> Tree:
     _actuators(top, template)
     _sensors(top, template)
     _variants(top, template)
+    _modules(top, uses or {})
     return top
+
+
+def _modules(top: Tree, uses: Mapping[str, Mapping[str, Any]]) -> None:
+    if uses:
+        listed = top.add(Text("modules", style="italic"))
+        for name, use in uses.items():
+            told = ", ".join(f"{key} {value}" for key, value in use.items() if key not in ("module", "source"))
+            listed.add(Text.assemble((name, "bold"), f"  {use['module']}", (f"  {told}", "dim")))
 
 
 def _actuators(top: Tree, template: Template) -> None:
@@ -90,6 +102,7 @@ def _joint(joint: JointTemplate, other: str) -> Text:
     words += _when(joint.drive_when, "driven where ") if joint.drive else []
     words += ["closed to a ring"] if joint.ring else []
     words += [joint.follows.words] if joint.follows else []
+    words += [f"held as drawn, or {', '.join(joint.positions)}"] if joint.positions else []
     words += ["free"] if joint.free and (joint.drive is None or joint.drive_when) else []
     words += _when(joint.when)
     return Text.assemble((joint.name, "cyan"), (f"  {', '.join(words)}", "dim"))

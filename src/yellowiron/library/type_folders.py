@@ -12,6 +12,7 @@ from yellowiron.model.specification import fold
 from yellowiron.support.plugins import Plugin, find_plugins
 
 DOCUMENTS = (
+    "modules",
     "hierarchy",
     "relations",
     "joints",
@@ -26,7 +27,10 @@ DOCUMENTS = (
     "words",
     "usual",
 )
-"""The documents a template folder can have, each `<name>.json`; only `joints` is needed."""
+"""The documents a template folder can have, each `<name>.json`; only `joints` is needed, and not even that
+where `modules` bring joints."""
+BUILDS = ("joints", "modules")
+"""The documents of which a template needs one to be built from."""
 ENTRY_POINTS = "yellowiron.templates"
 """The group under which an installed package names a package of its own that holds a folder for each type."""
 
@@ -40,13 +44,25 @@ def type_folders() -> dict[str, Path]:
     """Equipment type → its folder, sorted by type: the library's own, and those of installed packages, which name the
     package that holds such folders under the entry point group `yellowiron.templates`; the library's own first.
     `YellowironError` for an entry point that names no such package."""
-    roots = [library_folder(), *map(_brought, find_plugins(ENTRY_POINTS).values())]
     found: dict[str, Path] = {}
-    for root in roots:
+    for root in _roots():
         for folder in root.iterdir():
-            if any((folder / kind).is_file() for kind in ("joints.json", "wanted.json")):
+            if any((folder / kind).is_file() for kind in ("joints.json", "modules.json", "wanted.json")):
                 found.setdefault(folder.name, folder)
     return dict(sorted(found.items()))
+
+
+def module_files() -> dict[str, Path]:
+    """Module → its file, sorted by name: `modules/<name>.json` beside the folders of types."""
+    found: dict[str, Path] = {}
+    for root in _roots():
+        for file in (root / "modules").glob("*.json"):
+            found.setdefault(file.stem, file)
+    return dict(sorted(found.items()))
+
+
+def _roots() -> list[Path]:
+    return [library_folder(), *map(_brought, find_plugins(ENTRY_POINTS).values())]
 
 
 def _brought(plugin: Plugin) -> Path:
@@ -70,7 +86,7 @@ def list_templates() -> tuple[str, ...]:
 def is_sheet_only(equipment_type: str) -> bool:
     """Whether the library knows of a type only what to ask a sheet for: it can be extracted, not built."""
     folder = type_folders().get(equipment_type)
-    return folder is None or not (folder / "joints.json").is_file()
+    return folder is None or not any((folder / f"{kind}.json").is_file() for kind in BUILDS)
 
 
 def find_template(type_or_folder: str | Path) -> Path:

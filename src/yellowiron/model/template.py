@@ -84,8 +84,9 @@ class JointTemplate:
     specification (with an optional leading minus), or None (free). Gains in SI (N/m, N·m/rad …) or None: computed.
     `ring`: of a joint along a row (`shoe[i]`, `shoe[i+1]`), the last part is joined to the first; such a ring is joined
     to nothing else and touches the machine only. `follows`: another joint leads it, and nothing drives it. `direction`:
-    its axis as drawn. `documents`: the file name of the user's document that says what it joins (`joint`) or its limits
-    (`limit`).
+    its axis as drawn. `positions`: name → where else than as drawn it may be held, metres or radians from there (a pin
+    in another hole); `at`: which is chosen, nothing moves on it then. `documents`: the file name of the user's document
+    that says what it joins (`joint`) or its limits (`limit`).
     """
 
     name: str
@@ -105,6 +106,17 @@ class JointTemplate:
     ring: bool = False
     follows: Follows | None = None
     direction: Direction | None = None
+    positions: Mapping[str, float] = field(default_factory=dict, hash=False)
+    at: float | None = None
+
+    @property
+    def chosen_by(self) -> str:
+        """The variant that says in which of its positions it is held."""
+        return self.name.removesuffix("_joint")
+
+
+AS_DRAWN = "drawn"
+"""The choice of a joint's position in which nothing is moved."""
 
 
 @dataclass(frozen=True)
@@ -375,7 +387,7 @@ def choose(template: Template, choices: Mapping[str, str]) -> Template:
 
     roles = tuple(_chosen(r, chosen) for r in template.roles if holds(r.when, chosen))
     joints = tuple(
-        replace(j, when={}, drive_when={}, drive=j.drive if holds(j.drive_when, chosen) else None)
+        replace(_held(j, chosen), when={}, drive_when={}, drive=j.drive if holds(j.drive_when, chosen) else None)
         for j in template.joints
         if holds(j.when, chosen)
     )
@@ -407,6 +419,26 @@ def choose(template: Template, choices: Mapping[str, str]) -> Template:
         tests=tuple(replace(t, when={}) for t in template.tests if holds(t.when, chosen)),
         wanted=tuple(replace(w, when={}) for w in template.wanted if holds(w.when, chosen)),
     )
+
+
+def _held(joint: JointTemplate, chosen: Mapping[str, str]) -> JointTemplate:
+    """A joint of several positions in the one that is chosen; any other as it is."""
+    if not joint.positions:
+        return joint
+    return replace(joint, at=joint.positions.get(chosen.get(joint.chosen_by, AS_DRAWN), 0.0), positions={})
+
+
+def in_position(template: Template) -> Template:
+    """The template with joints that are held as drawn welded, and free those that are first moved to their place."""
+
+    def placed(joint: JointTemplate) -> JointTemplate:
+        if joint.at is None:
+            return joint
+        return (
+            replace(joint, free=True) if joint.at else replace(joint, type="fixed", free=False, lower=None, upper=None)
+        )
+
+    return replace(template, joints=tuple(map(placed, template.joints)))
 
 
 def as_drawn(template: Template, present: Collection[str]) -> Template:

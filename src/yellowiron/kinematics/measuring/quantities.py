@@ -13,12 +13,15 @@ import numpy as np
 from yellowiron.kinematics.solver.chain import ClosedChain, State
 from yellowiron.model.geometry import Floats
 from yellowiron.model.mechanism import Body, Joint, Mechanism, Site
+from yellowiron.support.vectors import triple
 
 _AXES = {"x": 0, "y": 1, "z": 2}
 _ON_EDGE = 1e-9
 """Metres: a zone's edge is in it, however its place is rounded."""
 _PARALLEL = 1e-4
 """Axles whose cosine is this near to 1 (0.8°) are parallel."""
+_UPRIGHT = 1e-6
+"""A direction whose level share is less than this has no side."""
 _TYRE = 0.7
 """What is farther out than this share of a wheel's radius is its tyre: a hub may stand out beside it."""
 
@@ -178,6 +181,38 @@ def _line(quantity: Mapping[str, Any], posed: Posed) -> Floats:
     if len(ends) != 2:
         raise Unmeasurable("a line needs two sites")
     return np.asarray(ends[1] - ends[0])
+
+
+def _roll(quantity: Mapping[str, Any], posed: Posed) -> float:
+    """How far a site's body is rolled about its own lengthwise direction, less as drawn: positive where its left side
+    goes down and its right side up."""
+    site = _site(quantity, posed)
+    left = np.cross((0.0, 0.0, 1.0), site.x_axis)
+    size = float(np.linalg.norm(left))
+    if size < _UPRIGHT:
+        raise Unmeasurable(f"the site '{site.name}' looks straight up or down")
+    side = posed.direction(site.body, triple(left / size))
+    return math.atan2(-float(side[2]), math.hypot(side[0], side[1]))
+
+
+def _between(quantity: Mapping[str, Any], posed: Posed) -> float:
+    """The angle between the x axes of two sites, 0 to π."""
+    first, second = (_site({"site": name}, posed) for name in _two(quantity, "sites"))
+    one, other = (posed.direction(site.body, site.x_axis) for site in (first, second))
+    return math.atan2(float(np.linalg.norm(np.cross(one, other))), float(one @ other))
+
+
+def _difference(quantity: Mapping[str, Any], posed: Posed) -> float:
+    """The first of two quantities less the second, both of this pose."""
+    first, second = _two(quantity, "quantities")
+    return evaluate(first, posed) - evaluate(second, posed)
+
+
+def _two(quantity: Mapping[str, Any], key: str) -> Sequence[Any]:
+    named: Sequence[Any] = quantity.get(key, ())
+    if len(named) != 2:
+        raise Unmeasurable(f"a '{quantity.get('kind')}' needs two {key}")
+    return named
 
 
 def _reach(quantity: Mapping[str, Any], posed: Posed) -> float:
@@ -342,6 +377,9 @@ _KINDS: Mapping[str, Callable[[Mapping[str, Any], Posed], float]] = {
     "angle": _angle,
     "yaw": _yaw,
     "slope": _slope,
+    "roll": _roll,
+    "between": _between,
+    "difference": _difference,
     "reach": _reach,
     "joint_angle": _joint_angle,
     "joint_range": _joint_range,

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import itertools
 from collections.abc import Iterator, Mapping
-from dataclasses import dataclass, field
+from dataclasses import dataclass, field, replace
 
 from yellowiron.library.linting.choices import references, without
 from yellowiron.library.linting.entries import SAMPLE, entries
@@ -12,7 +12,7 @@ from yellowiron.library.linting.mobility import TemplateMobility, mobility, weld
 from yellowiron.library.linting.movement import connections, loose_joints, movement
 from yellowiron.model.finding import Finding
 from yellowiron.model.rows import expand, split_index
-from yellowiron.model.template import Template, choose
+from yellowiron.model.template import Template, choose, in_position
 from yellowiron.support.graphs import blocks
 
 MOST_COMBINATIONS = 512
@@ -45,7 +45,7 @@ def lint(template: Template) -> LintReport:
     figures: list[TemplateMobility] = []
     combinations = _combinations(template)
     for choices in itertools.islice(combinations, MOST_COMBINATIONS):
-        chosen = choose(template, choices)
+        chosen = _held(choose(template, choices))
         broken = list(references(template, chosen, choices))
         findings.update(dict.fromkeys(broken))
         chosen = without(chosen, broken)
@@ -62,7 +62,12 @@ def lint(template: Template) -> LintReport:
             )
         ] = None
     ordered = sorted(findings, key=lambda f: _ORDER.index(f.severity))
-    return LintReport(tuple(ordered), tuple(figures), counts(choose(template, {})))
+    return LintReport(tuple(ordered), tuple(figures), counts(_held(choose(template, {}))))
+
+
+def _held(chosen: Template) -> Template:
+    """The template with every joint that is held in a position welded."""
+    return in_position(replace(chosen, joints=tuple(replace(j, at=j.at and 0.0) for j in chosen.joints)))
 
 
 def counts(template: Template) -> dict[str, int]:

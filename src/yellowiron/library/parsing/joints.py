@@ -12,7 +12,7 @@ from yellowiron.library.parsing.variants import choices_of
 from yellowiron.model.errors import TemplateError
 from yellowiron.model.rows import split_index
 from yellowiron.model.specification import fold
-from yellowiron.model.template import Direction, DriveType, Follows, JointTemplate, JointType, Role
+from yellowiron.model.template import AS_DRAWN, Direction, DriveType, Follows, JointTemplate, JointType, Role, Variant
 
 DIMENSION: Mapping[str, str] = {
     "prismatic": "length",
@@ -66,7 +66,14 @@ def read_joint(document: Document, name: str, entry: Mapping[str, Any], base: Jo
         ring=yes(entry["ring"]) if "ring" in entry else base.ring,
         follows=_follows(document, name, entry["follows"], kind) if "follows" in entry else base.follows,
         direction=cast(Direction, entry["direction"].lower()) if "direction" in entry else base.direction,
+        positions=_positions(document, name, entry["positions"], kind) if "positions" in entry else base.positions,
     )
+    if joint.positions and (joint.drive is not None or joint.follows is not None):
+        raise TemplateError(
+            f"Joint '{name}' is held in positions, and moves",
+            where=document.at(name, "positions"),
+            hint="Leave out its Drive, or what it follows: a pin holds it where it is.",
+        )
     if joint.follows is not None and joint.drive is not None:
         raise TemplateError(
             f"Joint '{name}' follows '{joint.follows.joint}' and has a drive of its own",
@@ -86,6 +93,29 @@ def read_joint(document: Document, name: str, entry: Mapping[str, Any], base: Jo
         max_force=gains.get("max_force", base.max_force),
         max_velocity=gains.get("max_velocity", base.max_velocity),
     )
+
+
+def _positions(document: Document, name: str, entry: Mapping[str, Any], kind: str) -> dict[str, float]:
+    """Name → where a joint may be held, SI."""
+    if kind not in _COUPLED:
+        raise TemplateError(
+            f"Joint '{name}' is {kind} and has positions",
+            where=document.at(name, "positions"),
+            hint="A slide or a pivot has some.",
+        )
+    if AS_DRAWN in entry:
+        raise TemplateError(
+            f"'{AS_DRAWN}' is the position that the CAD model shows",
+            where=document.at(name, "positions", AS_DRAWN),
+            hint="Name the others only.",
+        )
+    places = {each: document.at(name, "positions", each) for each in entry}
+    return {each: quantity(value, DIMENSION[kind], where=places[each]) for each, value in entry.items()}
+
+
+def positions_chosen(joints: Sequence[JointTemplate]) -> tuple[Variant, ...]:
+    """The variants by which a person says in which of its positions a joint is held."""
+    return tuple(Variant(j.chosen_by, (AS_DRAWN, *j.positions), AS_DRAWN) for j in joints if j.positions)
 
 
 def resolve_leaders(joints: Sequence[JointTemplate], at: Callable[..., str]) -> tuple[JointTemplate, ...]:

@@ -7,8 +7,8 @@ from dataclasses import dataclass, field
 from pathlib import Path
 from typing import Any
 
+from yellowiron.library.composing.documents import template_documents
 from yellowiron.library.load import load_template
-from yellowiron.library.notation.validated_json import read_document
 from yellowiron.library.parsing.wanted import complete
 from yellowiron.library.type_folders import find_template
 from yellowiron.model.alignment import Alignment
@@ -109,12 +109,12 @@ def likeness(equipment_type: str | Path, alignment: Alignment) -> Likeness:
         if set(template.bodies_of(j)) <= present
     }
 
+    written = template_documents(folder) if folder.is_dir() else {}
+
     def document(kind: str) -> Json:
-        path = folder / f"{kind}.json"
-        if not path.is_file():
+        if kind not in written:
             return {}
-        written = read_document(path, kind)
-        return dict((complete(written) if kind == "wanted" else written).data)
+        return dict((complete(written[kind]) if kind == "wanted" else written[kind]).data)
 
     return Likeness(
         template.equipment_type,
