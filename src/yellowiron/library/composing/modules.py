@@ -154,8 +154,9 @@ def _kept_to(documents: Mapping[str, Any], when: Mapping[str, Any]) -> dict[str,
         for kind, content in documents.items()
     }
     if "measurements" in whole:
-        listed = [kept(entry) for entry in whole["measurements"].get("measurements", ())]
-        whole["measurements"] = {**whole["measurements"], "measurements": listed}
+        measured = whole["measurements"]
+        sites = {name: kept(site) for name, site in measured.get("sites", {}).items()}
+        whole["measurements"] = {"sites": sites, "measurements": [kept(m) for m in measured.get("measurements", ())]}
     return whole
 
 
