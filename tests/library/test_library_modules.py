@@ -264,3 +264,24 @@ def test_tools_that_are_variants_have_their_own_sites_and_payloads(tmp_path: Pat
     sites["forks_load"].pop("when")
     report = library.lint(library.load_template(write(tmp_path / "t", **documents)))
     assert [(f.code, f.where) for f in report.findings if f.severity == "error"] == [("TPL008", "forks_load")]
+
+
+@pytest.mark.parametrize(
+    "documents",
+    [
+        {"modules": []},
+        {"modules": {"like": ["excavator"]}},
+        {"modules": {"a": {"module": ["hinge"]}}},
+        {"modules": {"a": {"module": "hinge", "on": ["base"], "body": {"x": 1}}}},
+        {"modules": {"a": {"module": "hinge", "on": "base", "body": "arm", "pin": ["x"]}}},
+        {"modules": {"a": "hinge"}},
+        {"modules": LIFTER["modules"], "hierarchy": {"base": "Y"}},
+        {"modules": LIFTER["modules"], "hierarchy": {"order": [1], "base": {"rigid body": "Y"}}},
+        {"modules": LIFTER["modules"], "hierarchy": {"order": ["*"], "base": {"child": {"arm": 3}}}},
+        {"modules": LIFTER["modules"], "hierarchy": ["base"]},
+        {"modules": LIFTER["modules"], "joints": {"like": "excavator", "without": [[]]}},
+    ],
+)
+def test_unusable_documents_end_in_a_message(tmp_path: Path, documents: dict[str, Any]) -> None:
+    with pytest.raises(TemplateError):
+        library.load_template(write(tmp_path, **documents))
