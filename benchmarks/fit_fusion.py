@@ -51,8 +51,9 @@ from yellowiron.alignment.fusion.played import drawn_bodies, lacks  # noqa: E402
 from yellowiron.alignment.fusion.weights import weights  # noqa: E402
 from yellowiron.library import load_template  # noqa: E402
 from yellowiron.model.errors import YellowironError  # noqa: E402
+from yellowiron.model.rows import as_drawn  # noqa: E402
 from yellowiron.model.specification import Specifications  # noqa: E402
-from yellowiron.model.template import Template, as_drawn, choose  # noqa: E402
+from yellowiron.model.template import Template, choose  # noqa: E402
 from yellowiron.stages import find_roles  # noqa: E402
 
 DATA = ROOT / "src/yellowiron/alignment/data/fusion.json"

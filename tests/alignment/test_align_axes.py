@@ -25,7 +25,8 @@ from yellowiron.library import load_template
 from yellowiron.model.alignment import PartAssignment
 from yellowiron.model.assembly import Assembly, Node
 from yellowiron.model.geometry import Floats, Mesh
-from yellowiron.model.template import JointTemplate, Role, Template, as_drawn, choose
+from yellowiron.model.rows import as_drawn
+from yellowiron.model.template import JointTemplate, Role, Template, choose
 
 MACHINE = Frame(*np.eye(3))
 TEMPLATES = {"loader": "wheel_loader", "excavator": "excavator"}

@@ -26,9 +26,9 @@ from yellowiron.mechanism import build_mechanism
 from yellowiron.model.alignment import Alignment, PartAssignment
 from yellowiron.model.assembly import Assembly, Part, Shape
 from yellowiron.model.geometry import Mesh
-from yellowiron.model.rows import expand
+from yellowiron.model.rows import as_drawn, expand
 from yellowiron.model.specification import Specifications
-from yellowiron.model.template import Template, as_drawn, choose
+from yellowiron.model.template import Template, choose
 from yellowiron.stages import find_roles
 
 

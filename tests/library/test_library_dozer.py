@@ -6,7 +6,7 @@ import pytest
 
 from yellowiron import library
 from yellowiron.library.linting.lint import LintReport
-from yellowiron.model.template import Template
+from yellowiron.model.template import Template, choose
 
 BLADE = {("pat", "single"): 3, ("push_arms", "single"): 2, ("push_arms", "dual"): 3}
 """(blade, tilt) → freedoms of the blade."""
@@ -48,3 +48,13 @@ def test_links_between_balls_are_said_to_spin(report: LintReport) -> None:
 def test_an_angling_cylinder_follows_the_other(dozer: Template) -> None:
     left, right = next(a for a in dozer.actuators if a.name == "blade_angle").cylinders
     assert (left.passive, left.sign, right.passive) == (False, -1, True)
+
+
+@pytest.mark.parametrize("ripper", ["none", "parallel", "radial"])
+def test_a_ripper_brings_its_own_site_and_measurements(dozer: Template, ripper: str) -> None:
+    chosen = choose(dozer, {"ripper": ripper})
+    there = ripper != "none"
+    assert ("ripper_tip" in {site.name for site in chosen.sites}) is there
+    measured = {m.name for m in chosen.measurements}
+    assert measured >= {"Ripper Penetration", "Ripper Lift Height"} if there else not measured & {"Ripper Penetration"}
+    assert len(chosen.sites) == 6 + there

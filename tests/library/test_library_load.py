@@ -20,7 +20,8 @@ from yellowiron.library.notation.quantities import limit, number_text, quantity
 from yellowiron.library.notation.validated_json import read_json
 from yellowiron.library.type_folders import DOCUMENTS, library_folder
 from yellowiron.model.errors import OutputError
-from yellowiron.model.template import Template, as_drawn, choose, without_absent_axles
+from yellowiron.model.rows import as_drawn, without_absent_axles
+from yellowiron.model.template import Template, choose
 from yellowiron.support.units import SI_UNIT
 
 DATA = Path(__file__).resolve().parent.parent / "data" / "templates"

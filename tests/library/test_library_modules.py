@@ -237,3 +237,51 @@ def test_what_no_template_comes_of_is_said(tmp_path: Path, like: str | None, wit
     with pytest.raises(TemplateError, match=words):
         library.compose_template(tmp_path / "new", like=like, modules=with_)
     assert not (tmp_path / "new").exists()
+
+
+def test_tools_that_are_variants_have_their_own_sites_and_payloads(tmp_path: Path) -> None:
+    """A site, and the place of the load, of the tool that is fitted; a site on a body that is not there is found."""
+    tools = {"tool": {"choices": ["bucket", "forks"], "default": "bucket"}}
+    arm = {
+        "bucket": {"rigid body": "Y", "when": {"tool": "bucket"}},
+        "forks": {"rigid body": "Y", "when": {"tool": "forks"}},
+    }
+    sites = {f"{tool}_load": {"body": tool, "point": [0, 0, 1], "when": {"tool": tool}} for tool in arm}
+    joints = {
+        f"base2{tool}_joint": {"joint_type": "Revolute", "Body": [tool, "base"], "free": "Y", "when": {"tool": tool}}
+        for tool in arm
+    }
+    documents = {
+        "hierarchy": {"base": {"rigid body": "Y", "child": arm}}, "joints": joints, "variants": tools,
+        "measurements": {"sites": sites}, "tests": {"payload": {"site": list(sites)}},
+    }  # fmt: skip
+    template = library.load_template(write(tmp_path, **documents))
+    assert library.lint(template).sound
+    for tool in arm:
+        chosen = choose(template, {"tool": tool})
+        assert [site.name for site in chosen.sites] == [f"{tool}_load"]
+        assert chosen.payload is not None and chosen.payload.site == f"{tool}_load"
+    sites["forks_load"].pop("when")
+    report = library.lint(library.load_template(write(tmp_path / "t", **documents)))
+    assert [(f.code, f.where) for f in report.findings if f.severity == "error"] == [("TPL008", "forks_load")]
+
+
+@pytest.mark.parametrize(
+    "documents",
+    [
+        {"modules": []},
+        {"modules": {"like": ["excavator"]}},
+        {"modules": {"a": {"module": ["hinge"]}}},
+        {"modules": {"a": {"module": "hinge", "on": ["base"], "body": {"x": 1}}}},
+        {"modules": {"a": {"module": "hinge", "on": "base", "body": "arm", "pin": ["x"]}}},
+        {"modules": {"a": "hinge"}},
+        {"modules": LIFTER["modules"], "hierarchy": {"base": "Y"}},
+        {"modules": LIFTER["modules"], "hierarchy": {"order": [1], "base": {"rigid body": "Y"}}},
+        {"modules": LIFTER["modules"], "hierarchy": {"order": ["*"], "base": {"child": {"arm": 3}}}},
+        {"modules": LIFTER["modules"], "hierarchy": ["base"]},
+        {"modules": LIFTER["modules"], "joints": {"like": "excavator", "without": [[]]}},
+    ],
+)
+def test_unusable_documents_end_in_a_message(tmp_path: Path, documents: dict[str, Any]) -> None:
+    with pytest.raises(TemplateError):
+        library.load_template(write(tmp_path, **documents))

@@ -63,8 +63,9 @@ from yellowiron.model.alignment import DECIDED, Alignment, Vector
 from yellowiron.model.assembly import Assembly
 from yellowiron.model.errors import AlignmentError
 from yellowiron.model.geometry import Floats
+from yellowiron.model.rows import as_drawn
 from yellowiron.model.specification import Specifications
-from yellowiron.model.template import Template, as_drawn, choose
+from yellowiron.model.template import Template, choose
 from yellowiron.support.caching.remembered import remembered
 from yellowiron.support.vectors import triple
 

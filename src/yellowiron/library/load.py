@@ -209,6 +209,9 @@ def _check_variants(template: Template, documents: Mapping[str, Document]) -> No
         if sensor.when:
             place = documents["sensors"].at(sensor.name, "when")
             check_choices(sensor.when, template.variants, place)
+    for site in template.sites:
+        if site.when:
+            check_choices(site.when, template.variants, documents["measurements"].at("sites", site.name, "when"))
     for number, measurement in enumerate(template.measurements):
         if measurement.when:
             place = documents["measurements"].at("measurements", number, "when")

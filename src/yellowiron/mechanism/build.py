@@ -29,8 +29,9 @@ from yellowiron.model.errors import MechanismError
 from yellowiron.model.finding import Finding
 from yellowiron.model.geometry import Floats
 from yellowiron.model.mechanism import HELD, Drive, Joint, Mechanism, Vector
+from yellowiron.model.rows import as_drawn
 from yellowiron.model.specification import Specifications
-from yellowiron.model.template import JointTemplate, Material, Template, as_drawn
+from yellowiron.model.template import JointTemplate, Material, Template
 from yellowiron.support.vectors import clean_triple
 
 

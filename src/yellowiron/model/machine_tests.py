@@ -2,8 +2,8 @@
 
 from __future__ import annotations
 
-from collections.abc import Mapping
-from dataclasses import dataclass, field
+from collections.abc import Collection, Mapping
+from dataclasses import dataclass, field, replace
 from typing import Any, Literal
 
 TestKind = Literal["tipping", "force", "time", "lift"]
@@ -21,11 +21,17 @@ class RatedLoad:
 
 @dataclass(frozen=True)
 class PayloadTemplate:
-    """The load in the machine's tool: its middle is at `site`; what it is rated for comes from the first of `rated`
-    whose specification is known."""
+    """The load in the machine's tool: its middle is at `site`, or where that is not there at the first of `others` that
+    is; what it is rated for comes from the first of `rated` whose specification is known."""
 
     site: str
     rated: tuple[RatedLoad, ...] = ()
+    others: tuple[str, ...] = ()
+
+    def among(self, sites: Collection[str]) -> PayloadTemplate:
+        """It, at the first of its sites that is there; at its first where none is."""
+        found = next((name for name in (self.site, *self.others) if name in sites), self.site)
+        return replace(self, site=found, others=())
 
 
 @dataclass(frozen=True)

@@ -1,4 +1,5 @@
-"""Counted rows: `track_shoe_l[*]` and the joints along it, made concrete once the CAD model shows how many there are.
+"""A template made concrete by what the CAD model shows: counted rows (`track_shoe_l[*]` and the joints along it), once
+it shows how many there are, and what stands in for bodies that are not drawn.
 
 The parts of a row are `track_shoe_l_1`, `track_shoe_l_2`, … in order along it, and so are its joints:
 `…_joint[i]` becomes `…_joint_1`, `…_joint_2`, ….
@@ -7,7 +8,7 @@ The parts of a row are `track_shoe_l_1`, `track_shoe_l_2`, … in order along it
 from __future__ import annotations
 
 import re
-from collections.abc import Iterable, Mapping
+from collections.abc import Collection, Iterable, Mapping, Sequence
 from dataclasses import replace
 
 from yellowiron.model.template import JointTemplate, Role, Template
@@ -94,3 +95,94 @@ def _along(joint: JointTemplate, sizes: Mapping[str, int]) -> tuple[JointTemplat
             first, second = (row if place is None else member(row, place) for row, place in parts)
             made.append(replace(joint, name=f"{name}_{number}", parts=(first, second)))
     return tuple(made)
+
+
+def as_drawn(template: Template, present: Collection[str]) -> Template:
+    """The template (its variants decided) for a machine of which these bodies are drawn: without absent axles
+    (`without_absent_axles`), an absent frame one with the frame that carries it, an absent slideway with what bears it,
+    and what would turn on one pin of an absent body turning on each other."""
+    return across_absent(_with_bearers_in_one(without_absent_axles(template, present), present), present)
+
+
+def _with_bearers_in_one(template: Template, present: Collection[str]) -> Template:
+    """Frames that are not drawn, on one that is, are one with it: an articulated machine drawn in one piece. So are
+    arms on which something slides that is drawn: a forklift's mast in its chassis."""
+    slides = [j for j in template.joints if j.type == "prismatic" and j.follows is None]
+    bearers = {
+        str(a) for a, b in map(template.bodies_of, slides) if b in present and template.role(str(a)).kind == "arm"
+    }
+    absent = {
+        r.name
+        for r in template.roles
+        if r.rigid and r.name not in present and r.parent is not None
+        if (above := template.body_of(r.parent)) in present
+        if r.name in bearers or r.kind == template.role(str(above)).kind == "frame"
+    }
+    if not absent:
+        return template
+    merged = replace(template, roles=tuple(replace(r, rigid=r.rigid and r.name not in absent) for r in template.roles))
+    known = [j for j in template.joints if all(template.knows(part.partition("[")[0]) for part in j.parts)]
+    gone = {j.name for j in known if len(set(merged.bodies_of(j))) == 1}
+    return replace(merged, joints=tuple(j for j in template.joints if j.name not in gone))
+
+
+def across_absent(template: Template, present: Collection[str]) -> Template:
+    """Links that share a pin with a body that is not drawn (a bucket's links, on the eye of its cylinder's rod) hinge
+    on each other, on the same pin."""
+    roles, joints = list(template.roles), list(template.joints)
+    for role in [r for r in template.roles if r.kind == "pin"]:
+        on_it = [j for j in joints if j.type == "revolute" and role.name in j.parts]
+        if len(on_it) != 2:
+            continue
+        first, second = (set(template.bodies_of(j)) for j in on_it)
+        ends = sorted(str(b) for b in first ^ second)
+        if len(first & second) != 1 or first & second & {*present} or not {*ends} <= {*present}:
+            continue
+        bearer, carried = sorted(ends, key=template.depth)
+        (absent,) = (str(b) for b in first & second)
+        # The absent body keeps one of its joints: it may tell what its cylinder would have moved.
+        kept = next(j for j in on_it if bearer in template.bodies_of(j))
+        across = JointTemplate(f"{bearer}2{carried}_joint", "revolute", (carried, role.name))
+        roles = [replace(r, parent=bearer) if r.name == role.name else r for r in roles]
+        joints = [replace(j, parts=(bearer, absent)) if j is kept else across if j in on_it else j for j in joints]
+    if joints == list(template.joints):
+        return template
+    return replace(template, roles=tuple(roles), joints=tuple(joints))
+
+
+def without_absent_axles(template: Template, present: Collection[str]) -> Template:
+    """The template (its variants decided) without the axles that no part is drawn for: of the bodies that are not
+    `present`, those that hold nothing but wheels on the body above them, alone or together (an axle with its knuckles,
+    tie rods and steering cylinder). Their wheels, and what else moves with them, then move on that body."""
+    wheels = {r.name for r in template.roles if r.kind == "wheel"}
+    known = [j for j in template.joints if all(template.knows(part.partition("[")[0]) for part in j.parts)]
+    ends = {j.name: template.bodies_of(j) for j in known}
+    beside: dict[str, set[str]] = {}
+    for pair in ends.values():
+        for body in pair:
+            beside.setdefault(str(body), set()).update(str(b) for b in pair if b != body)
+    above = {r.name: template.body_of(r.parent) for r in template.roles if r.rigid and r.parent is not None}
+    open_ones = [b for b in above if b not in present and b != template.root and b not in wheels]
+    absent: set[str] = set()
+    for group in [{b} for b in open_ones] + _hanging_together(open_ones, beside):
+        others = set().union(*(beside.get(b, set()) for b in group)) - group
+        carriers = {above[b] for b in group} - group
+        if len(carriers) == 1 and carriers <= others and others & wheels and others <= wheels | carriers:
+            absent |= group
+    if not absent:
+        return template
+    merged = replace(template, roles=tuple(replace(r, rigid=r.rigid and r.name not in absent) for r in template.roles))
+    gone = {j.name for j in known if absent & {*ends[j.name]} and len(set(merged.bodies_of(j))) == 1}
+    return replace(merged, joints=tuple(j for j in template.joints if j.name not in gone))
+
+
+def _hanging_together(bodies: Sequence[str], beside: Mapping[str, Collection[str]]) -> list[set[str]]:
+    """The groups of these bodies that are beside each other."""
+    found, left = [], dict.fromkeys(bodies)
+    while left:
+        group = [next(iter(left))]
+        for body in group:
+            left.pop(body, None)
+            group += [b for b in beside.get(body, ()) if b in left and b not in group]
+        found.append(set(group))
+    return found

@@ -30,8 +30,9 @@ from yellowiron.alignment.structure.observation import Observation, slewing_join
 from yellowiron.alignment.tolerances import CONTACT, UPRIGHT
 from yellowiron.model.errors import AlignmentError
 from yellowiron.model.geometry import Floats
+from yellowiron.model.rows import across_absent
 from yellowiron.model.specification import Specifications
-from yellowiron.model.template import Template, across_absent, choose
+from yellowiron.model.template import Template, choose
 from yellowiron.support.caching.remembered import remembered
 
 EFFORT = 4.0

@@ -32,7 +32,8 @@ from yellowiron.alignment.fusion.weights import weights
 from yellowiron.alignment.structure.clusters import Hinge, Structure, labelled_structure
 from yellowiron.alignment.structure.observation import Observation, slewing_joints
 from yellowiron.model.geometry import Floats
-from yellowiron.model.template import JointTemplate, Template, as_drawn
+from yellowiron.model.rows import as_drawn
+from yellowiron.model.template import JointTemplate, Template
 
 GLANCE, FEW, LIKELY = SWEEPS // 2, 4, 4
 """So many sweeps of few chains tell which variants are the likeliest, and so many of these are judged with all."""

@@ -8,8 +8,8 @@ from dataclasses import replace
 from yellowiron.alignment.labelling.result import is_required
 from yellowiron.model.alignment import Alignment
 from yellowiron.model.finding import Finding
-from yellowiron.model.rows import count_members
-from yellowiron.model.template import Template, as_drawn, choose
+from yellowiron.model.rows import as_drawn, count_members
+from yellowiron.model.template import Template, choose
 
 
 def of_drawn(found: Alignment, drawn: Collection[str], template: Template) -> Alignment:

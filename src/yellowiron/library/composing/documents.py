@@ -80,7 +80,7 @@ def _content(folder: Path, kind: str, above: tuple[Path, ...], known: dict[Path,
         content = {name: entry for name, entry in content.items() if name != "order"}
     if brought is not None:
         content = brought if content is None else on_top(brought, content)
-        content = nested(content) if kind == "hierarchy" else content
+        content = nested(content) if kind == "hierarchy" and isinstance(content, dict) else content
     if not order:
         return content
     return in_order_throughout(content, order) if kind == "hierarchy" else in_order(content, order)

@@ -51,33 +51,41 @@ def in_order(content: Mapping[str, Any], patterns: Sequence[str]) -> dict[str, A
 
 def in_order_throughout(hierarchy: Mapping[str, Any], patterns: Sequence[str]) -> dict[str, Any]:
     """As `in_order`, of a hierarchy, at every depth."""
-    return {
-        name: {**entry, "child": in_order_throughout(entry["child"], patterns)}
-        if isinstance(entry.get("child"), Mapping)
-        else entry
-        for name, entry in in_order(hierarchy, patterns).items()
-    }
+
+    def inner(entry: Any) -> Any:
+        child = _child(entry)
+        return {**entry, "child": in_order_throughout(child, patterns)} if child is not None else entry
+
+    return {name: inner(entry) for name, entry in in_order(hierarchy, patterns).items()}
 
 
 def nested(hierarchy: Mapping[str, Any]) -> dict[str, Any]:
     """A hierarchy whose entries that say their `parent` stand under it, where it is there."""
-    content: dict[str, Any] = {name: dict(entry) for name, entry in hierarchy.items()}
     places: dict[str, dict[str, Any]] = {}
 
-    def note(entries: dict[str, Any]) -> None:
-        for name, entry in entries.items():
-            places.setdefault(_bare(name), entry)
-            if isinstance(entry.get("child"), Mapping):
-                entry["child"] = {n: dict(e) for n, e in entry["child"].items()}
-                note(entry["child"])
+    def copied(entries: Mapping[str, Any]) -> dict[str, Any]:
+        """As deep as there are entries, each noted by its name."""
+        own = {name: dict(entry) if isinstance(entry, Mapping) else entry for name, entry in entries.items()}
+        for name, entry in own.items():
+            if isinstance(entry, dict):
+                places.setdefault(_bare(name), entry)
+            if (child := _child(entry)) is not None:
+                entry["child"] = copied(child)
+        return own
 
-    note(content)
+    content = copied(hierarchy)
     for name, entry in list(content.items()):
-        host = places.get(_bare(str(entry.get("parent", ""))))
+        host = places.get(_bare(str(entry.get("parent", "")))) if isinstance(entry, dict) else None
         if host is not None and host is not entry and isinstance(host.setdefault("child", {}), dict):
             host["child"][name] = entry
             del content[name], entry["parent"]
     return content
+
+
+def _child(entry: Any) -> Mapping[str, Any] | None:
+    """The entries below one, where it has some that are not names alone."""
+    child = entry.get("child") if isinstance(entry, Mapping) else None
+    return child if isinstance(child, Mapping) else None
 
 
 def _bare(name: str) -> str:

@@ -82,7 +82,7 @@ def expanded(uses: Mapping[str, Any], path: Path, above: tuple[str, ...] = ()) -
 def behind(uses: Mapping[str, Any]) -> set[Path]:
     """The files of the modules that some uses name, and of those that these use; of those that are there."""
     files, found = module_files(), set[Path]()
-    names = [use.get("module") for use in uses.values() if isinstance(use, Mapping)]
+    names = [str(use.get("module")) for use in uses.values() if isinstance(use, Mapping)]
     while names:
         name = names.pop()
         if name in files and files[name] not in found:
@@ -123,7 +123,7 @@ def _filled(value: Any, given: Mapping[str, Any]) -> Any:
         return _PARAMETER.sub(lambda found: str(given.get(found[1], found[0])), value)
     if isinstance(value, Mapping):
         pairs = ((_filled(name, given), _filled(entry, given)) for name, entry in value.items())
-        return {name: entry for name, entry in pairs if _NOTHING not in (name, entry)}
+        return {str(name): entry for name, entry in pairs if name is not _NOTHING and entry is not _NOTHING}
     if isinstance(value, list):
         return [entry for entry in (_filled(each, given) for each in value) if entry is not _NOTHING]
     return value
@@ -154,8 +154,9 @@ def _kept_to(documents: Mapping[str, Any], when: Mapping[str, Any]) -> dict[str,
         for kind, content in documents.items()
     }
     if "measurements" in whole:
-        listed = [kept(entry) for entry in whole["measurements"].get("measurements", ())]
-        whole["measurements"] = {**whole["measurements"], "measurements": listed}
+        measured = whole["measurements"]
+        sites = {name: kept(site) for name, site in measured.get("sites", {}).items()}
+        whole["measurements"] = {"sites": sites, "measurements": [kept(m) for m in measured.get("measurements", ())]}
     return whole
 
 

@@ -32,6 +32,9 @@ def _gone(template: Template, chosen: Template, choices: Mapping[str, str]) -> I
     for role in chosen.roles:
         if role.parent is not None and role.parent not in roles:
             yield role.name, f"its parent '{role.parent}'"
+    for site in chosen.sites:
+        if site.body not in roles:
+            yield site.name, f"its body '{site.body}'"
     if chosen.root not in roles:
         yield chosen.root, "the root"
     for actuator in template.actuators:

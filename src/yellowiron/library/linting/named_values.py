@@ -130,7 +130,8 @@ def machine_tests(template: Template) -> Iterator[Finding]:
             yield Finding("TPL020", "warning", where, words, near(name, wanted.values()))
 
     if template.payload is not None:
-        yield from missing("payload", "site", template.payload.site, sites)
+        for name in (template.payload.site, *template.payload.others):
+            yield from missing("payload", "site", name, sites)
         for rated in template.payload.rated:
             yield from unasked("payload", rated.specification)
     for test in template.tests:

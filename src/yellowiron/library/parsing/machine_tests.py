@@ -28,7 +28,8 @@ def read_tests(document: Document) -> tuple[PayloadTemplate | None, tuple[Machin
     payload = None
     if entry is not None:
         rated = (RatedLoad(r["specification"], float(r["factor"]), r.get("source", "")) for r in entry.get("rated", ()))
-        payload = PayloadTemplate(entry["site"], tuple(rated))
+        site, *others = [entry["site"]] if isinstance(entry["site"], str) else entry["site"]
+        payload = PayloadTemplate(site, tuple(rated), tuple(others))
     tests: list[MachineTest] = []
     for i, entry in enumerate(document.data.get("tests", ())):
         place = document.at("tests", i)

@@ -28,7 +28,7 @@ def read_measurements(
 
     sites = []
     for name, entry in document.data.get("sites", {}).items():
-        rule = {k: v for k, v in entry.items() if k != "body"}
+        rule = {k: v for k, v in entry.items() if k not in ("body", "when")}
         for key in ("joint", "edge_from", "inside_from", "along", "pointing"):
             if key in rule:
                 place, given = document.at("sites", name, key), rule[key]
@@ -37,7 +37,8 @@ def read_measurements(
                 rule[key] = found if several else found[0]
         if "middle_of" in rule:
             rule["middle_of"] = known(rule["middle_of"], document.at("sites", name, "middle_of"), parts, "role")
-        sites.append(SiteTemplate(name, known(entry["body"], document.at("sites", name, "body"), bodies, "body"), rule))
+        body = known(entry["body"], document.at("sites", name, "body"), bodies, "body")
+        sites.append(SiteTemplate(name, body, rule, choices_of(entry, "when")))
     measurements = []
     for i, entry in enumerate(document.data.get("measurements", ())):
         place = document.at("measurements", i)
