@@ -22,6 +22,7 @@ from yellowiron.alignment.fusion.annealing import Annealing, against, labelled, 
 from yellowiron.alignment.fusion.bonds import ENOUGH, Bond, _together, _welded, out_of_line
 from yellowiron.alignment.fusion.judge import field_of, score_of
 from yellowiron.alignment.fusion.pieces import Piece, leading
+from yellowiron.alignment.fusion.played import beside_lost_arms
 from yellowiron.alignment.fusion.reading import CONTRARY
 from yellowiron.alignment.fusion.stance import Stance, stance_of
 from yellowiron.alignment.fusion.votes import LENT, borrowed
@@ -234,6 +235,16 @@ def test_contacts_that_make_one_body_of_most_of_a_machine_say_nothing(surfaces: 
     observation: Any = SimpleNamespace(solids=[SimpleNamespace(surface=area) for area in surfaces])
     structure: Any = SimpleNamespace(clusters=[SimpleNamespace(members={0, 1}), SimpleNamespace(members={2})])
     assert _welded(observation, structure) == ({0: 0, 1: 0, 2: 1} if told else {2: 1})
+
+
+def test_what_stands_beside_an_arm_that_is_lost_is_doubted() -> None:
+    """A boom that was called `Front_Forks` was the bucket, without a word, on a loader without cylinders; a rocker or a
+    link that is not drawn casts no doubt."""
+    loader = choose(load_template("wheel_loader"), {"lift_cylinders": "twin"})
+    for frames in (("rear_frame",), ("rear_frame", "front_frame")):
+        assert {"front_frame", "bucket"} <= beside_lost_arms(loader, {*frames, "bucket"})
+        assert not beside_lost_arms(loader, {*frames, "boom", "bucket"})
+    assert not beside_lost_arms(loader, {"rear_frame", "front_frame"})  # nothing hangs on it
 
 
 def test_small_pieces_play_what_nothing_large_is_named_for() -> None:

@@ -26,7 +26,7 @@ class PayloadTemplate:
 
     site: str
     rated: tuple[RatedLoad, ...] = ()
-    others: tuple[str, ...] = ()
+    others: tuple[str, ...] = field(default=(), metadata={"undecided": True})
 
     def among(self, sites: Collection[str]) -> PayloadTemplate:
         """It, at the first of its sites that is there; at its first where none is."""

@@ -48,3 +48,20 @@ def _slight(body: str, template: Template) -> bool:
     """Whether a body is usually so small that no leading piece may be of it."""
     small = body in template.usual and template.usual[body].area < 2.0 * LARGE
     return small and template.role(body).kind not in BARS
+
+
+def beside_lost_arms(template: Template, played: Collection[str]) -> set[str]:
+    """The bodies beside an arm that nothing plays though what it joins is there, a frame as part of the next: its parts
+    are among theirs. No cylinder need be drawn, but a bucket hangs on something."""
+    beside: dict[str, set[str]] = {}
+    for own, other in (pair for a, b in map(template.bodies_of, template.joints) for pair in ((a, b), (b, a))):
+        if own and other and not {template.role(own).kind, template.role(other).kind} & {*BARS, "wheel"}:
+            beside.setdefault(own, set()).add(other)
+    frames = {b for b, others in beside.items() if template.role(b).kind == "frame" and others & {*played}}
+    there = frames.union(played)
+    lost = [
+        b for b, others in beside.items()
+        if b not in played and template.role(b).kind == "arm" and not template.role(b).optional
+        and not _slight(b, template) and len(others & there) > 1
+    ]  # fmt: skip
+    return set().union(*(beside[b] for b in lost))

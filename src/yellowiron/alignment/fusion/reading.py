@@ -18,7 +18,7 @@ from yellowiron.alignment.fusion.bonds import Bond, out_of_line
 from yellowiron.alignment.fusion.evidence import Evidence, evidence_of, ways_of
 from yellowiron.alignment.fusion.judge import Field, field_of, score_of, weighed
 from yellowiron.alignment.fusion.pieces import Piece
-from yellowiron.alignment.fusion.played import drawn_bodies, lacks, missing_bodies
+from yellowiron.alignment.fusion.played import beside_lost_arms, drawn_bodies, lacks, missing_bodies
 from yellowiron.alignment.fusion.stance import Stance
 from yellowiron.alignment.fusion.votes import (
     BARS,
@@ -265,6 +265,7 @@ def _judged(best: _Best, evidence: Evidence) -> dict[int, Judged]:
     labels, _ = labelled(field, start, sweeps=0, chains=1)
     lead, second = leads(best.field, best.labels)
     lead_all, second_all = leads(field, labels)
+    unsure = beside_lost_arms(best.template, played)
     contrary = against(best.field, best.labels, _told([best.votes[k] for k in chief], bodies))
     found: dict[int, Judged] = {}
     for k, piece in enumerate(pieces):
@@ -274,7 +275,7 @@ def _judged(best: _Best, evidence: Evidence) -> dict[int, Judged]:
         if k in label_of:
             n = list(chief).index(k)
             margin, other = float(lead[n]), int(second[n])
-            doubted = contrary[n] > CONTRARY
+            doubted = contrary[n] > CONTRARY or body in unsure
         else:
             doubted = False
             margin, other = float(lead_all[k]), int(second_all[k])
