@@ -121,11 +121,9 @@ class _Trip:
 
     def _go(self, engine: Engine, distance: float, *, speed: float = SPEED, record: list[Floats] | None = None) -> None:
         """Drives a distance (negative: backwards) and comes to rest; `record` takes the wheels' places."""
-        time = abs(distance) / speed + _RAMP
-        for number in range(self._steps(time + 1.0)):
-            now = (number + 1) * self.timestep
-            share = min(1.0, now / _RAMP, max(0.0, (time - now) / _RAMP))
-            tell(engine, self._speeds(math.copysign(speed * share, distance)))
+        ahead = np.copysign(tracked.course(abs(distance), speed, math.inf, self.timestep), distance)
+        for told in (*ahead.tolist(), *[0.0] * self._steps(1.0)):
+            tell(engine, self._speeds(told))
             engine.step()
             if record is not None:
                 record.append(self._places(poses(engine)))
