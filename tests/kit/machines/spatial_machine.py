@@ -153,20 +153,28 @@ def frame_turn(drawn: Blade, stroke: float) -> float:
 
 
 class Follower:
-    """A body on a ball that is followed from pose to pose in small steps."""
+    """A body on a ball that is followed from pose to pose in small steps. `least`: how far from a dead point it was on
+    its last way, as the least determinant of how its links lengthen by its turns, in shares of the drawn pose's."""
 
     def __init__(self, links: Sequence[tuple[np.ndarray, np.ndarray]], ball: np.ndarray) -> None:
         self._links, self._ball = links, ball
         self._lengths = np.array([np.linalg.norm(b - a) for a, b in links])
         self._drawn = self._lengths.copy()
         self.matrix = np.eye(3)
+        self._first = self._determinant()
+        self.least = 1.0
+
+    def _determinant(self) -> float:
+        arms = [(self.matrix @ (eye - self._ball), foot - self._ball) for foot, eye in self._links]
+        return float(np.linalg.det([np.cross(arm, arm - foot) / np.linalg.norm(arm - foot) for arm, foot in arms]))
 
     def at(self, strokes: Sequence[float], steps: int = 20) -> np.ndarray:
         """Its rotation with the links so much longer than drawn."""
         goal = self._drawn + np.array(strokes)
-        start = self._lengths
+        start, self.least = self._lengths, np.inf
         for share in np.linspace(0.0, 1.0, steps + 1)[1:]:
             self.matrix = turned(self._links, self._ball, start + share * (goal - start), self.matrix)
+            self.least = min(self.least, self._determinant() / self._first)
         self._lengths = goal
         return self.matrix
 
