@@ -62,10 +62,41 @@ def test_actuators_carry_gains_and_forces(model: mujoco.MjModel, mechanism: Mech
     assert names["drive"] == {f"drive.{wheel}_joint": f"{wheel}_joint" for wheel in small_machine.WHEELS}
     drive = mechanism.joint("slide").drive
     assert drive is not None
-    boom = model.actuator("boom")
+    boom, damper, slide = model.actuator("boom"), model.actuator("boom.damping"), model.joint("slide")
     assert boom.gainprm[0] == pytest.approx(drive.stiffness)
-    assert -boom.biasprm[2] == pytest.approx(drive.damping)
-    assert boom.forcerange == pytest.approx((-drive.max_force, drive.max_force))
+    assert boom.biasprm[2] == 0.0 and -damper.biasprm[2] == pytest.approx(drive.damping)
+    assert model.jnt_actfrcrange[slide.id] == pytest.approx((-drive.forces[0], drive.forces[1]))
+    assert boom.forcerange == pytest.approx((-drive.damping * drive.speeds[0], drive.damping * drive.speeds[1]))
+    # What does nothing comes after what does.
+    controls = [model.actuator(number).name for number in range(model.nu)]
+    assert controls == [*(c for own in names.values() for c in own), "boom.damping"]
+
+
+@pytest.mark.parametrize("way", [-1, 1])
+def test_a_target_far_away_is_reached_at_rated_speed_and_no_load_moves_it_past_its_force(
+    mechanism: Mechanism, tmp_path: Path, way: int
+) -> None:
+    """A step to the stroke's end: by area and flow; against a wall: by area and pressure, each way its own."""
+    joint = mechanism.joint("slide")
+    assert joint.drive is not None and joint.lower is not None and joint.upper is not None
+    drive = dataclasses.replace(joint.drive, max_force=9e3, reverse_force=5e3, max_velocity=0.1, reverse_velocity=0.16)
+    driven = dataclasses.replace(joint, drive=drive)
+    changed = dataclasses.replace(mechanism, joints=tuple(driven if j.name == "slide" else j for j in mechanism.joints))
+    model = mujoco.MjModel.from_xml_path(str(export_mjcf(changed, Geometry(), tmp_path, base="fixed")))
+    model.opt.gravity[:] = 0.0
+    data, slide = mujoco.MjData(model), model.joint("slide")
+    data.ctrl[model.actuator("boom").id] = joint.upper if way > 0 else joint.lower
+    fastest = 0.0
+    for _ in range(300):
+        mujoco.mj_step(model, data)
+        fastest = max(fastest, way * float(data.qvel[slide.dofadr[0]]))
+    rated, force = drive.speeds[way > 0], drive.forces[way > 0]
+    assert 0.98 * rated <= fastest <= 1.02 * rated
+    model.dof_armature[slide.dofadr[0]] = 1e9  # a wall
+    mujoco.mj_resetData(model, data)
+    data.ctrl[model.actuator("boom").id] = joint.upper if way > 0 else joint.lower
+    mujoco.mj_step(model, data)
+    assert way * data.qfrc_actuator[slide.dofadr[0]] == pytest.approx(force, rel=1e-6)
 
 
 def test_a_negative_sign_turns_the_control_over(mechanism: Mechanism, tmp_path: Path) -> None:

@@ -10,8 +10,7 @@ import pytest
 from planar_zbar import length, sketch, strokes, zbar_mechanism
 
 from yellowiron.kinematics import ClosedChain, branch_pivots, branch_sine, complete
-from yellowiron.kinematics.completion import ANGLE_MARGIN, FREQUENCY, SLIDE_MARGIN, position_gains
-from yellowiron.kinematics.strength import weight
+from yellowiron.kinematics.completion import ANGLE_MARGIN, SLIDE_MARGIN
 from yellowiron.model.mechanism import Actuator, ActuatorJoint, Body, Cylinder, Drive, Joint, Loop, Mechanism
 
 
@@ -238,32 +237,6 @@ def test_a_branch_near_its_dead_point_is_a_finding():
     assert near.loops[0].branch == complete(mechanism).loops[0].branch != 0
 
 
-def test_gains_hold_the_usual_mass_at_three_hertz():
-    mechanism = crane(0.5)
-    chain = ClosedChain(mechanism)
-    masses = [chain.effective_mass(s, "ram") for s in chain.sweep({"ram": np.linspace(-0.1, 0.3, 41)})]
-    usual = float(np.quantile(masses, 0.95))
-    joint = complete(mechanism).joint("ram")
-    omega, held = math.tau * FREQUENCY, abs(weight(chain, chain.drawn, "ram"))
-    # Its stroke is short: at 3 Hz its own weight would move it by more than two percent of that.
-    assert held > usual * omega**2 * 0.02 * (joint.upper - joint.lower)
-    provisional = mechanism.joint("ram").drive
-    assert joint.drive == position_gains(provisional, usual, travel=joint.upper - joint.lower, held=held)
-    light = position_gains(provisional, usual, travel=joint.upper - joint.lower)
-    assert light.stiffness == pytest.approx(usual * omega**2, rel=1e-9)
-    assert light.damping == pytest.approx(2.0 * light.stiffness / omega)
-    assert "3 Hz" in light.source and light.max_force == 1e6
-
-
-def test_a_drive_is_no_softer_than_its_weight_over_two_percent_of_its_travel():
-    drive = Drive("position", 0.0, 0.0, 1e5, 0.2, "gains provisional")
-    held = position_gains(drive, 10.0, travel=0.5, held=2e3)
-    assert held.stiffness == pytest.approx(2e3 / 0.01)
-    assert held.damping == pytest.approx(2.0 * held.stiffness / (math.tau * FREQUENCY))
-    assert "no softer" in held.source
-    assert position_gains(drive, 1e3, travel=0.5, held=2e3) == position_gains(drive, 1e3, travel=0.5)
-
-
 def test_a_velocity_drive_damps_no_more_than_its_inertia_takes():
     mechanism = crane(0.5)
     free = replace(mechanism.joint("boom_pin"), free=False, lower=None, upper=None, cut=False)
@@ -278,55 +251,13 @@ def test_a_velocity_drive_damps_no_more_than_its_inertia_takes():
         found = complete(arm).joint(turned.name).drive
         assert found is not None
         inertia = ClosedChain(arm).effective_mass(ClosedChain(arm).drawn, turned.name)
-        return replace(found, damping=found.damping / inertia)
+        return replace(found, damping=found.damping / (inertia + found.armature))
 
-    assert damped(1e9).damping == pytest.approx(1700.0)
+    assert damped(1e9).damping == pytest.approx(600.0, rel=0.05)
     assert damped(1.0).damping < 1.0
-    assert damped(1e9, "x; template states damping").damping > 1700.0
+    assert damped(1e9, "x; template states damping").damping > 1000.0
     # A ring of shoes runs around with what it turns, and no joint says so.
-    assert damped(1e9, beside=(replace(ends[0], name="shoe"),)).damping > 1700.0
-
-
-def test_a_steering_cylinder_sees_the_boom_wherever_it_is(planar, mechanism):
-    _, travel = planar
-    chain = ClosedChain(mechanism)
-    drive = complete(mechanism).joint("steering_l").drive
-    seen = drive.stiffness / (math.tau * FREQUENCY) ** 2
-    masses = [
-        chain.effective_mass(chain.solve({"steering_l": s, "lift_l": a, "tilt": b}), "steering_l")
-        for s in np.linspace(mechanism.joint("steering_l").lower, mechanism.joint("steering_l").upper, 9)
-        for a in np.linspace(*travel[0], 5)
-        for b in np.linspace(*travel[1], 3)
-    ]
-    assert np.median(masses) < seen <= 1.001 * max(masses)
-
-
-def test_stated_gains_stay():
-    stated = Drive("position", 5e6, 1e5, 1e6, 0.2, "template")
-    assert position_gains(stated, 1e5) == stated
-    undamped = position_gains(replace(stated, damping=0.0), 1e5)
-    assert undamped.stiffness == 5e6 and undamped.damping == pytest.approx(2.0 * math.sqrt(5e6 * 1e5))
-
-
-def test_provisional_gains_do_not_stay_unless_the_template_states_them():
-    omega = math.tau * FREQUENCY
-    drive = Drive("position", 1e9, 1e9, 1e6, 0.2, "pressure times area: 400 kN; gains provisional")
-    found = position_gains(drive, 1e5)
-    assert found.stiffness == pytest.approx(1e5 * omega**2) and found.damping == pytest.approx(2e5 * omega)
-    assert "pressure times area: 400 kN; gains: 3 Hz" in found.source and "provisional" not in found.source
-    assert position_gains(found, 2e5) == found
-    partly = position_gains(replace(drive, source=drive.source + "; template states damping"), 1e5)
-    assert partly.damping == 1e9 and partly.stiffness == pytest.approx(1e5 * omega**2)
-
-
-def test_a_load_that_is_most_of_what_is_moved_counts():
-    """Stiff enough for the load; damped as much too much without it as too little with it."""
-    drive = Drive("position", 0.0, 0.0, 1e9, 0.2, "pressure times area: 400 kN; gains provisional")
-    found = position_gains(drive, 1e3, laden=16e3)
-    assert found.stiffness == pytest.approx(16e3 * (math.tau * FREQUENCY) ** 2)
-    empty, laden = (found.damping / (2.0 * math.sqrt(found.stiffness * m)) for m in (1e3, 16e3))
-    assert (empty, laden) == pytest.approx((2.0, 0.5))
-    assert "with and without the rated load, on the 16 t" in found.source
+    assert damped(1e9, beside=(replace(ends[0], name="shoe"),)).damping > 1000.0
 
 
 def test_velocity_drives_get_damping(mechanism, done):
@@ -344,12 +275,3 @@ def test_a_machine_without_loops_is_complete_too():
     done = complete(arm)
     assert done.mobility.computed == done.mobility.expected == done.mobility.grubler == 1
     assert done.findings == ()
-
-
-def test_a_drive_is_no_stiffer_than_its_force_over_half_a_percent_of_its_travel():
-    drive = Drive("position", 0.0, 0.0, 1e5, 0.2, "gains provisional")
-    capped = position_gains(drive, 1e9, travel=0.5)
-    assert capped.stiffness == pytest.approx(1e5 / 0.0025)
-    assert capped.damping == pytest.approx(2.0 * capped.stiffness / (math.tau * FREQUENCY))
-    assert "0.5% of its travel" in capped.source
-    assert position_gains(drive, 1e3, travel=0.5) == position_gains(drive, 1e3)

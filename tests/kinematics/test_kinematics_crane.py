@@ -9,7 +9,6 @@ import pytest
 from planar_zbar import direction, length, meet, point, side, turned, wrapped
 
 from yellowiron.kinematics import ClosedChain, complete, lever_table, measure
-from yellowiron.kinematics.completion import FREQUENCY
 from yellowiron.kinematics.measuring.quantities import wheels
 from yellowiron.kinematics.strength import carried
 from yellowiron.model.mechanism import Actuator, ActuatorJoint, Body, Cylinder, Drive, Joint, Loop, Mechanism, Site
@@ -105,14 +104,6 @@ def test_loops_along_a_chain_are_solved_apart_and_completed():
     assert done.findings == ()
     assert done.mobility.computed == done.mobility.expected == 3
     assert all(loop.branch for loop in done.loops)
-    # The boom's cylinder carries the arm wherever that is.
-    seen = done.joint("boom_ram").drive.stiffness / (math.tau * FREQUENCY) ** 2
-    masses = [
-        chain.effective_mass(chain.solve({"boom_ram": b, "arm_ram": a}), "boom_ram")
-        for b in np.linspace(-0.4, 0.5, 5)
-        for a in np.linspace(-0.3, 0.4, 15)
-    ]
-    assert seen == pytest.approx(np.quantile(masses, 0.95), rel=0.15)
     assert wheels(done) == ()
 
 

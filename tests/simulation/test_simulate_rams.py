@@ -134,8 +134,10 @@ def test_rams_take_their_slides_to_their_targets(engine: str, built: Built) -> N
     step = ENGINES[engine].timestep
     loaded = load(engine, Setup(built.file, built.mechanism, "fixed", step, SLIDES))
     ends = np.array([0.45, -0.12, 0.35])
-    seconds = step * np.arange(1, round(6.0 / step) + 1)
-    targets = np.clip(seconds / 4.0, 0.0, 1.0)[:, None] * ends
+    rated = [drive.slowest for s in SLIDES if (drive := built.mechanism.joint(s).drive) is not None]
+    needed = 1.1 * float((np.abs(ends) / rated).max())
+    seconds = step * np.arange(1, round((needed + 2.0) / step) + 1)
+    targets = np.clip(seconds / needed, 0.0, 1.0)[:, None] * ends
     try:
         for _ in loaded.targets(SLIDES, targets):
             loaded.step()

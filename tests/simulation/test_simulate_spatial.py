@@ -17,9 +17,9 @@ from yellowiron.model.mechanism import Mechanism
 from yellowiron.simulation import simulate
 
 PIN = {"mujoco": 5e-6, "newton": 5e-6, "physx": 1e-4}
-"""Metres by which pins are off at most; measured: 4.5, 2.0 and 68 µm …"""
+"""Metres by which pins are off at most …"""
 PUSHED = 1e-5
-"""… but in Newton, in single precision, on the push arms, which hold each other: 5.3 µm there."""
+"""… but on the push arms, which hold each other: 9.2 µm in MuJoCo, 5.3 in Newton, whose drives follow 1/55 s behind."""
 MACHINES = {
     "blade": lambda: blade_machine(blade()),
     "drawbar": lambda: drawbar_machine(*drawbar()),
@@ -42,7 +42,7 @@ def test_pins_hold_over_the_strokes_of_all_cylinders(written: tuple[Mechanism, P
     # With one of two lift cylinders driven, tilt cylinders on push arms carry the other half, and give way by 5 mm.
     sagging = {"tilt_l", "tilt_r"} & {joint.name for joint in mechanism.joints}
     assert {(f.code, f.where) for f in result.findings} <= {("SIM005", name) for name in sagging}
-    assert result.pin_error < (PUSHED if sagging and engine == "newton" else PIN[engine])
+    assert result.pin_error < (max(PUSHED, PIN[engine]) if sagging else PIN[engine])
     assert math.degrees(result.angle_error) < 0.01
     assert len(result.branches) == len(mechanism.loops) and all(branch.kept for branch in result.branches)
     assert {a.actuator for a in result.actuators} == {a.name for a in mechanism.actuators}

@@ -109,9 +109,9 @@ def test_position_drive_of_a_slide(stage: Usd.Stage) -> None:
     assert drive.GetDampingAttr().Get() == pytest.approx(1e4 / 7)
     assert drive.GetMaxForceAttr().Get() == pytest.approx(2.5e5)
     assert drive.GetTypeAttr().Get() == "force"
-    assert prim.GetAttribute("physxJoint:maxJointVelocity").Get() == pytest.approx(0.31)
-    assert prim.GetAttribute("physxJointAxis:linear:maxJointVelocity").Get() == pytest.approx(0.31)
-    assert prim.GetAttribute("newton:velocityLimit").Get() == pytest.approx(0.31)
+    assert prim.GetAttribute("physxJoint:maxJointVelocity").Get() == pytest.approx(1.05 * 0.31)
+    assert prim.GetAttribute("physxJointAxis:linear:maxJointVelocity").Get() == pytest.approx(1.05 * 0.31)
+    assert prim.GetAttribute("newton:velocityLimit").Get() == pytest.approx(1.05 * 0.31)
 
 
 def test_velocity_drive_of_a_wheel_is_per_degree(stage: Usd.Stage) -> None:

@@ -13,7 +13,8 @@ from yellowiron.support.lazy import lazy_names
 
 if TYPE_CHECKING:
     from yellowiron.exporters.geometry import BodyGeometry, Geometry, read_geometry
-    from yellowiron.exporters.mjcf.document import actuator_names, export_mjcf, integrator_of
+    from yellowiron.exporters.mjcf.actuators import actuator_names
+    from yellowiron.exporters.mjcf.document import export_mjcf, integrator_of
     from yellowiron.exporters.registry import EXPORTERS, Exporter, export, exporter_names, find_exporter
 
 __all__ = [
@@ -37,7 +38,7 @@ __getattr__, __dir__ = lazy_names(
         "BodyGeometry": "geometry",
         "Exporter": "registry",
         "Geometry": "geometry",
-        "actuator_names": "mjcf.document",
+        "actuator_names": "mjcf.actuators",
         "export": "registry",
         "export_mjcf": "mjcf.document",
         "exporter_names": "registry",

@@ -3,50 +3,32 @@
 from __future__ import annotations
 
 import math
-from collections.abc import Sequence
 from dataclasses import dataclass, field, replace
 from typing import Any
 
-import numpy as np
-
+from yellowiron.kinematics.gains import set_gains
 from yellowiron.kinematics.solver.branches import branch_pivots, branch_sines
-from yellowiron.kinematics.solver.chain import ClosedChain, Component, State
+from yellowiron.kinematics.solver.chain import ClosedChain, Component
 from yellowiron.kinematics.solver.independence import independent_joints, suspects
 from yellowiron.kinematics.solver.pose_grid import PoseGrid, explore, joint_values
 from yellowiron.kinematics.spatial_hints import locked_hint
-from yellowiron.kinematics.strength import carried, rated_load, strong_enough, weight
+from yellowiron.kinematics.strength import strong_enough
 from yellowiron.kinematics.tolerances import PINS_APART
 from yellowiron.kinematics.twins import end_with_twins, twins_out_of_stroke
 from yellowiron.model.finding import Finding
 from yellowiron.model.geometry import Floats
-from yellowiron.model.mechanism import PROVISIONAL, STATED, Drive, Joint, Mechanism, Mobility, Site
+from yellowiron.model.mechanism import Joint, Mechanism, Mobility
 
 ANGLE_MARGIN = math.radians(0.5)
 """Radians added to a pivot's range from the loop, so that its limit never carries load."""
 SLIDE_MARGIN = 2e-3
 """Metres added to a passive slide's range from the loop."""
-FREQUENCY = 3.0
-"""Hertz of a position drive on the empty machine: with its payload about 2, which every engine holds."""
 STRAIGHT = 0.05
 """|sine| at a triangle of pivots below which a loop is too near its dead point to have a branch."""
 _BACK = 2e-3
 """Metres or radians by which a limit that was drawn in stands back from the dead point."""
 _FLAT = 1e-6
 """|sine| of a drawn triangle of pivots that is none: its loop has no branch."""
-_OWN, _OTHERS = 13, 25
-"""Poses sampled for the mass a drive sees: of its own component, and of each other one."""
-_USUAL = 0.95
-"""The share of those poses whose masses the gains are for."""
-MOSTLY_LOAD = 10.0
-"""A drive that sees so many times its mass with the rated load gets its gains for that: a truck's or a crane's load is
-most of what it lifts (13 to 17 times), a loader's weighs a few of its bucket."""
-_SATURATED = 0.005
-"""A drive has its full force at no less than this share of its travel: stiffer, it would only saturate."""
-_SAGS = 0.02
-"""… and gives way to the weight on it by no more than this share, in the drawn pose: short strokes need more."""
-_STEP, _STABLE = 1e-3, 1.7
-"""Engines step that many seconds. A velocity drive's damping over one is no more than so many times the inertia that it
-turns: from 2 on, explicit steps swing to and fro. Sprockets turn rings besides, where these are bodies of their own."""
 _PER_FREEDOM = {"fixed": 6, "revolute": 5, "prismatic": 5, "spherical": 3, "distance": 0}
 
 
@@ -70,9 +52,7 @@ def complete(mechanism: Mechanism) -> Mechanism:
       small margin; limits that are already there stay.
     - The stroke of a driven slide ends where the linkage locks.
     - `Loop.branch`: the sign of each loop's triangle of pivots (`branches.branch_pivots`).
-    - Gains of position drives that have none, or only provisional ones (`position_gains`): k = m(2πf)², d = 2k/(2πf),
-      m the mass the drive sees through the linkage, f = 3 Hz. A velocity drive without damping gets the one
-      that gives full force at standstill and none at full speed.
+    - Gains of drives that have none, or only provisional ones (`gains.set_gains`).
 
     Findings: KIN001 stroke past a dead point, KIN002 unreachable combination of strokes, KIN003 branch, KIN004 passive
     twin out of stroke, KIN005 mobility, KIN006 stated limit against the loop's, KIN007 drive without force or speed,
@@ -97,7 +77,7 @@ def complete(mechanism: Mechanism) -> Mechanism:
     work.findings += twins_out_of_stroke(mechanism, work.joints, SLIDE_MARGIN)
     loops = _branches(mechanism, grids, placed, work)
     work.findings += strong_enough(chain, grids, work.joints)
-    _gains(mechanism, grids, work, ringed=bool(whole.floating))
+    work.findings += set_gains(chain, grids, work.joints, ringed=bool(whole.floating))
     return replace(
         whole,
         joints=tuple(work.joints[joint.name] for joint in whole.joints),
@@ -269,118 +249,3 @@ def _branches(mechanism: Mechanism, grids: list[PoseGrid], placed: list[tuple[Fl
                 )
         loops.append(replace(loop, branch=branch))
     return tuple(loops)
-
-
-def _gains(mechanism: Mechanism, grids: list[PoseGrid], work: _Work, *, ringed: bool) -> None:
-    masses, loaded = _seen_masses(work.chain, grids, rated_load(mechanism))
-    laden = {name: mass for name, mass in loaded.items() if mass > MOSTLY_LOAD * masses[name]}
-    for joint in mechanism.joints:
-        drive = work.joints[joint.name].drive
-        if drive is None or joint.name not in work.chain.independent:
-            continue
-        if drive.kind == "velocity":
-            work.joints[joint.name] = replace(work.joints[joint.name], drive=_velocity_gain(drive, joint, work, ringed))
-            continue
-        if joint.name not in masses:
-            masses[joint.name] = work.chain.effective_mass(work.chain.drawn, joint.name)
-        travel = joint.upper - joint.lower if joint.upper is not None and joint.lower is not None else None
-        unit = "kg" if joint.type == "prismatic" else "kg·m²"
-        held = abs(weight(work.chain, work.chain.drawn, joint.name)) if travel else 0.0
-        gained = position_gains(drive, masses[joint.name], unit, travel=travel, held=held, laden=laden.get(joint.name))
-        work.joints[joint.name] = replace(work.joints[joint.name], drive=gained)
-
-
-def position_gains(
-    drive: Drive,
-    mass: float,
-    unit: str = "kg",
-    *,
-    travel: float | None = None,
-    held: float = 0.0,
-    laden: float | None = None,
-    frequency: float = FREQUENCY,
-) -> Drive:
-    """A position drive with gains for a mass (kg, or kg·m² for a pivot): k = m(2πf)², d = 2k/(2πf), critically damped.
-
-    No softer than the weight that it has `held` (N, N·m) over two percent of its `travel` (metres, radians), and no
-    stiffer than its force over half a percent of that. Gains that the drive has
-    stay, unless its source calls them provisional; those that "template states" names after that stay too. A stiffness
-    that stays gets the damping d = 2√(km) where it has none. `laden`: the mass with a load that is most of it, which
-    the stiffness is for then; the damping is critical for the geometric mean of both, so that it neither creeps
-    without the load nor rings with it.
-    """
-    provisional = PROVISIONAL in drive.source
-    stated = drive.source.partition(STATED)[2]
-    keep_stiffness = drive.stiffness > 0.0 and (not provisional or "stiffness" in stated)
-    keep_damping = drive.damping > 0.0 and (not provisional or "damping" in stated)
-    if keep_stiffness and keep_damping:
-        return drive
-    omega = 2.0 * math.pi * frequency
-    empty, mass = mass, laden if laden is not None else mass
-    capped = ""
-    if not keep_stiffness and travel and held > mass * omega * omega * _SAGS * travel:
-        mass = held / (_SAGS * travel * omega * omega)
-        capped = f", no softer than the weight on it over {_SAGS:.0%} of its travel: as for"
-    if not keep_stiffness and travel and mass * omega * omega * _SATURATED * travel > drive.max_force:
-        mass = drive.max_force / (_SATURATED * travel * omega * omega)
-        capped = f", no stiffer than its force over {_SATURATED:.1%} of its travel: as for"
-    stiffness = drive.stiffness if keep_stiffness else mass * omega * omega
-    least = mass if laden is None else min(empty, mass)
-    damping = drive.damping if keep_damping else 2.0 * math.sqrt(stiffness * math.sqrt(least * mass))
-    shown = f"{1e-3 * mass:.4g} t" if unit == "kg" else f"{mass:.4g} {unit}"
-    at = "" if keep_stiffness else f"{frequency:g} Hz, "
-    on = capped + f" {shown}" if capped else f" on the {shown} it sees through the linkage"
-    how = "critically damped" if laden is None else "damped for it with and without the rated load,"
-    gains = f"gains: {at}{how}{on}"
-    source = (
-        drive.source.replace(PROVISIONAL, gains) if provisional else "; ".join(t for t in (drive.source, gains) if t)
-    )
-    return replace(drive, stiffness=stiffness, damping=damping, source=source)
-
-
-def _velocity_gain(drive: Drive, joint: Joint, work: _Work, ringed: bool) -> Drive:
-    if drive.damping > 0.0:
-        if ringed:
-            return drive
-        most = _STABLE * work.chain.effective_mass(work.chain.drawn, joint.name) / _STEP
-        if drive.damping <= most or "damping" in drive.source.partition(STATED)[2]:
-            return drive
-        return replace(drive, damping=most, source=f"{drive.source}; damping: as much as the inertia it turns takes")
-    if not (drive.max_force > 0.0 and drive.max_velocity > 0.0):
-        work.find("KIN007", "warning", joint.name, "the drive has no force or no speed, so it gets no damping")
-        return drive
-    source = "damping: full force at standstill, none at full speed"
-    return replace(
-        drive,
-        damping=drive.max_force / drive.max_velocity,
-        source="; ".join(text for text in (drive.source, source) if text),
-    )
-
-
-def _seen_masses(
-    chain: ClosedChain, grids: list[PoseGrid], load: tuple[Site, float] | None
-) -> tuple[dict[str, float], dict[str, float]]:
-    """Driver → the mass it sees in all but the rarest poses of its own component and of the others (a steering cylinder
-    turns a raised or outstretched boom too). The rarest are left out: at full lock a short lever makes it ten times the
-    usual mass, and gains for that saturate and buzz everywhere else. Then the same with a `load`, a mass (kg) at a
-    site; nothing without one."""
-    seen: dict[str, list[float]] = {}
-    laden: dict[str, list[float]] = {}
-    for component, grid in zip(chain.components(), grids, strict=True):
-        others = [pose for other in grids if other is not grid for pose in _spread(other.states, _OTHERS)]
-        for state in _spread(grid.states, _OWN) if others else grid.states:
-            for pose in [chain.combined(state, component, other) for other in others] or [state]:
-                for name in grid.drivers:
-                    mass = chain.effective_mass(pose, name)
-                    seen.setdefault(name, []).append(mass)
-                    if load is not None:
-                        laden.setdefault(name, []).append(mass + carried(chain, pose, name, *load))
-    empty, full = (
-        {name: float(np.quantile(masses, _USUAL)) for name, masses in each.items()} for each in (seen, laden)
-    )
-    return empty, full
-
-
-def _spread(states: Sequence[State], most: int) -> Sequence[State]:
-    """At most about `most` of the states, evenly spread over them."""
-    return states[:: max(1, len(states) // most)]

@@ -78,19 +78,26 @@ def strong_enough(chain: ClosedChain, grids: list[PoseGrid], joints: dict[str, J
             drive = joints[name].drive
             if name not in guessed or drive is None or drive.kind != "position" or not len(states):
                 continue
-            held = float(np.quantile([abs(weight(chain, state, name)) for state in states], _USUAL))
+            # Which way of the cylinder holds the weight depends on the pose.
             known = math.isfinite(drive.max_force)
-            drawn = abs(weight(chain, chain.drawn, name))
-            drawn = min(drawn, _MOST * (drive.max_force / _SPARE if known else held))
-            force = _SPARE * max(held, drawn)
-            if not force > 0.0 or (known and force <= drive.max_force):
+            has = drive.forces if known else (1.0, 1.0)
+            held, drawn = (
+                [abs(force) / has[int(force > 0.0)] for force in forces]
+                for forces in ([weight(chain, s, name) for s in states], [weight(chain, chain.drawn, name)])
+            )
+            usual = float(np.quantile(held, _USUAL))
+            factor = _SPARE * max(usual, min(drawn[0], _MOST * (1.0 / _SPARE if known else usual)))
+            if not factor > (1.0 if known else 0.0):
                 continue
-            has = f"with the template's pressure it has {display(drive.max_force, 'N')} and could not hold"
+            force = factor * (drive.max_force if known else 1.0)
+            less = f"with the template's pressure it has {display(drive.max_force, 'N')} and could not hold"
             words = (
-                f"{has if known else 'nothing gives its force, which must hold'} the machine's own weight: it is given "
-                f"{display(force, 'N')}, {_SPARE:g} times what that takes"
+                f"{less if known else 'nothing gives its force, which must hold'} the machine's own weight: it is "
+                f"given {display(force, 'N')}, {_SPARE:g} times what that takes"
             )
             findings.append(Finding("KIN015", "warning", name, words, "Give pressure and weight, or a sheet."))
             source = f"{drive.source}; {_SPARE:g} times the machine's own weight on it"
-            joints[name] = replace(joints[name], drive=replace(drive, max_force=force, source=source))
+            back = None if drive.reverse_force is None else factor * drive.reverse_force
+            stronger = replace(drive, max_force=force, reverse_force=back, source=source)
+            joints[name] = replace(joints[name], drive=stronger)
     return tuple(findings)

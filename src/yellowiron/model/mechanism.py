@@ -78,7 +78,11 @@ class Body:
 @dataclass(frozen=True)
 class Drive:
     """A joint drive. `position` drives hold a target with stiffness and damping, `velocity` drives have damping only.
-    N/m and N·s/m (slides) or N·m/rad and N·m·s/rad (pivots); `max_force` in N or N·m; `max_velocity` m/s or rad/s."""
+    N/m and N·s/m (slides) or N·m/rad and N·m·s/rad (pivots); `max_force` in N or N·m; `max_velocity` m/s or rad/s.
+
+    Both are those of the joint's positive direction (a cylinder that extends); `reverse_force` and `reverse_velocity`
+    are those of the other (one that retracts), None where they are the same. `armature` is an inertia of the drive's
+    own along its coordinate, kg or kg·m²."""
 
     kind: Literal["position", "velocity"]
     stiffness: float
@@ -86,6 +90,29 @@ class Drive:
     max_force: float
     max_velocity: float
     source: str = ""
+    reverse_force: float | None = None
+    reverse_velocity: float | None = None
+    armature: float = 0.0
+
+    @property
+    def forces(self) -> tuple[float, float]:
+        """The largest force (N, N·m) in the negative direction and in the positive one, both positive."""
+        return self.max_force if self.reverse_force is None else self.reverse_force, self.max_force
+
+    @property
+    def speeds(self) -> tuple[float, float]:
+        """The rated speed (m/s, rad/s) in the negative direction and in the positive one, both positive."""
+        return self.max_velocity if self.reverse_velocity is None else self.reverse_velocity, self.max_velocity
+
+    @property
+    def strongest(self) -> float:
+        """The larger of its forces: for engines that know one limit."""
+        return max(self.forces)
+
+    @property
+    def slowest(self) -> float:
+        """The smaller of its speeds, 0 where it has none: for engines that know one limit."""
+        return min(self.speeds)
 
 
 @dataclass(frozen=True)

@@ -59,13 +59,14 @@ def _motor(chain: ClosedChain, motion: Motion) -> Pace:
 
 def _pace(chain: ClosedChain, motion: Motion) -> Pace:
     drive = chain.mechanism.joint(motion.joint).drive
-    force = drive.max_force if drive is not None else math.inf
     places: Floats = np.linspace(motion.low, motion.high, _POINTS)
     limits = np.full(_POINTS, math.inf)
     state = chain.drawn
     for number, place in enumerate(places.tolist()):
         state, fraction = chain.reach({motion.joint: place}, start=state)
-        if fraction == 1.0 and math.isfinite(force):
-            spare = max(0.1 * force, force - abs(weight(chain, state, motion.joint)))
+        held = weight(chain, state, motion.joint)
+        pull, push = drive.forces if drive is not None else (math.inf, math.inf)
+        if fraction == 1.0 and math.isfinite(spare := min(push - held, pull + held)):
+            spare = max(0.1 * min(push, pull), spare)
             limits[number] = SPARE * spare / chain.effective_mass(state, motion.joint)
     return Pace(places, limits)

@@ -9,6 +9,7 @@ from __future__ import annotations
 import typing
 from collections.abc import Iterable, Iterator
 from contextlib import contextmanager
+from dataclasses import replace
 from pathlib import Path
 from typing import Any
 
@@ -326,14 +327,12 @@ def _drive(prim: Usd.Prim, kind: str, recorded: Drive) -> Drive:
     stiffness = recorded.stiffness
     if recorded.kind == "position":
         stiffness = _number(api.GetStiffnessAttr(), recorded.stiffness, factor)
-    return Drive(
-        kind=recorded.kind,
-        stiffness=stiffness,
-        damping=_number(api.GetDampingAttr(), recorded.damping, factor),
-        max_force=_number(api.GetMaxForceAttr(), recorded.max_force),
-        max_velocity=recorded.max_velocity,
-        source=recorded.source,
-    )
+    damping = _number(api.GetDampingAttr(), recorded.damping, factor)
+    drive = replace(recorded, stiffness=stiffness, damping=damping)
+    strongest = _number(api.GetMaxForceAttr(), recorded.strongest)
+    if strongest != recorded.strongest:  # edited: the attribute limits both ways
+        drive = replace(drive, max_force=strongest, reverse_force=None)
+    return drive
 
 
 def _kind(prim: Usd.Prim) -> str:

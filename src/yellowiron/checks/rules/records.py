@@ -187,12 +187,19 @@ def edited_drive(view: View) -> Remarks:
             pairs = {
                 "stiffness": (drive.stiffness, built.get("stiffness") if built.get("kind") == "position" else 0.0),
                 "damping": (drive.damping, built.get("damping")),
-                "maxForce": (drive.max_force, built.get("max_force")),
+                "maxForce": (drive.max_force, _strongest(built)),
             }
             for name, (value, before) in pairs.items():
                 given = _number(before)
                 if given is not None and not _same(value, given):
                     yield joint.path, f"Its {name} is {value:.5g}, and was built as {given:.5g} (SI)."
+
+
+def _strongest(built: dict[str, Any]) -> Any:
+    """The attribute limits both ways: it is the stronger one's."""
+    forces = [_number(built.get(name)) for name in ("max_force", "reverse_force")]
+    known = [force for force in forces if force is not None]
+    return max(known) if forces[0] is not None else None
 
 
 @rule(

@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-import math
 from pathlib import Path
 from typing import Literal
 from xml.etree import ElementTree as ET
@@ -11,11 +10,11 @@ import numpy as np
 
 from yellowiron.exporters.assets import Assets, plain, unique
 from yellowiron.exporters.geometry import BodyGeometry, Collider, Geometry, read_geometry
-from yellowiron.exporters.mjcf import sensors
+from yellowiron.exporters.mjcf import actuators, sensors
 from yellowiron.exporters.mjcf.values import axes_of, minus, quaternion, row, text
 from yellowiron.model.errors import MechanismError
 from yellowiron.model.geometry import Color, Floats, Mesh
-from yellowiron.model.mechanism import Actuator, ActuatorJoint, Body, Drive, Joint, Mechanism, chained, rolling
+from yellowiron.model.mechanism import Body, Joint, Mechanism, chained, rolling
 from yellowiron.support.convex import convex_pieces, hull
 
 TIMESTEP = 0.001
@@ -68,24 +67,6 @@ def export_mjcf(
     return folder / f"{name}.xml"
 
 
-def actuator_names(mechanism: Mechanism) -> dict[str, dict[str, str]]:
-    """Actuator → its controls in MJCF, each with its joint: one control named as the actuator, or `actuator.joint` for
-    each joint of a motor with several. Every control is positive in the actuator's positive sense."""
-    return {
-        actuator.name: {name: entry.joint for name, entry in _controls(actuator, mechanism).items()}
-        for actuator in mechanism.actuators
-    }
-
-
-def _controls(actuator: Actuator, mechanism: Mechanism) -> dict[str, ActuatorJoint]:
-    joints = {joint.name: joint for joint in mechanism.joints}
-    entries = actuator.joints[:1] if actuator.kind == "cylinder" else actuator.joints
-    driven = [entry for entry in entries if joints[entry.joint].drive is not None and not joints[entry.joint].cut]
-    if len(driven) == 1:
-        return {actuator.name: driven[0]}
-    return {f"{actuator.name}.{entry.joint}": entry for entry in driven}
-
-
 def integrator_of(mechanism: Mechanism) -> str:
     """MuJoCo's name of the integrator that suits a machine."""
     held = any(joint.cut or joint.follows is not None for joint in mechanism.joints)
@@ -128,7 +109,7 @@ class _Document:
         top.append(self._defaults())
         top.append(self._asset())
         top.append(world)
-        held = (self._contact(), self._equality(), self._tendon(), self._actuator())
+        held = (self._contact(), self._equality(), self._tendon(), actuators.section(self._mechanism))
         for section in (*held, sensors.section(self._mechanism), self._keyframe()):
             if len(section):
                 top.append(section)
@@ -219,6 +200,8 @@ class _Document:
         made.set("axis", row(joint.axis))
         if joint.lower is not None and joint.upper is not None:
             made.set("range", row((joint.lower, joint.upper)))
+        for name, value in (actuators.limits(joint.drive) if joint.drive is not None else {}).items():
+            made.set(name, value)
 
     def _geometry_of(self, element: ET.Element, body: str, shapes: BodyGeometry) -> None:
         for visual in shapes.visuals:
@@ -325,38 +308,11 @@ class _Document:
                     ET.SubElement(spatial, "site", site=f"{joint.name}.{number}")
         return section
 
-    def _actuator(self) -> ET.Element:
-        section = ET.Element("actuator")
-        for actuator in self._mechanism.actuators:
-            for name, entry in _controls(actuator, self._mechanism).items():
-                joint = self._mechanism.joint(entry.joint)
-                if joint.drive is not None:
-                    values = {"name": name, "joint": joint.name, **_gains(joint, joint.drive, entry.sign)}
-                    ET.SubElement(section, joint.drive.kind, values)
-        return section
-
     def _keyframe(self) -> ET.Element:
         section = ET.Element("keyframe")
         if self._drawn:
             ET.SubElement(section, "key", name="drawn", qpos=row(self._drawn))
         return section
-
-
-def _gains(joint: Joint, drive: Drive, sign: int) -> dict[str, str]:
-    values: dict[str, str] = {}
-    if drive.kind == "position":
-        values = {"kp": text(drive.stiffness), "kv": text(drive.damping)}
-        if joint.lower is not None and joint.upper is not None:
-            values["ctrlrange"] = row(sorted((sign * joint.lower, sign * joint.upper)))
-    else:
-        values = {"kv": text(drive.damping)}
-        if 0.0 < drive.max_velocity < math.inf:
-            values["ctrlrange"] = row((-drive.max_velocity, drive.max_velocity))
-    if sign < 0:
-        values["gear"] = "-1"
-    if 0.0 < drive.max_force < math.inf:
-        values["forcerange"] = row((-drive.max_force, drive.max_force))
-    return values
 
 
 def _scene(mechanism: Mechanism, machine_file: str) -> ET.Element:

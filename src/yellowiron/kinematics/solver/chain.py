@@ -17,7 +17,7 @@ import numpy as np
 from yellowiron.kinematics.solver.floating import attached
 from yellowiron.kinematics.solver.idle_spins import idle_spins
 from yellowiron.kinematics.solver.independence import independent_joints, locked_error, square_system, suspects
-from yellowiron.kinematics.solver.multibody import build, transverse
+from yellowiron.kinematics.solver.multibody import build, reduced_masses, transverse
 from yellowiron.kinematics.solver.positions import continued
 from yellowiron.kinematics.tolerances import CLOSED, RANK
 from yellowiron.model.errors import MechanismError
@@ -472,6 +472,10 @@ class ClosedChain:
         mujoco.mj_makeM(self._model, self._data)
         mujoco.mj_mulM(self._model, self._data, momentum, velocity)
         return float(velocity @ momentum)
+
+    def masses(self, state: State) -> tuple[Floats, Floats]:
+        """The mass matrix (independent, independent) in those coordinates, SI: the root held, and the root free."""
+        return reduced_masses(self._model, self._data, self.tangents(state))
 
     def point_velocity(self, state: State, joint: str, body: str, point: Floats) -> Floats:
         """Velocity (3,) of a body's point (drawn machine coordinates) per unit velocity of an independent coordinate,

@@ -190,3 +190,29 @@ def _unit(joint: Joint) -> Floats:
     if not 1e-6 < length < np.inf:
         raise MechanismError("the joint has no axis", where=joint.name, hint=_HINT)
     return axis / length
+
+
+def reduced_masses(model: mujoco.MjModel, data: mujoco.MjData, tangents: Floats) -> tuple[Floats, Floats]:
+    """The mass matrix in the coordinates whose unit velocities are the columns of `tangents` (nv, n), with the root
+    held and with the root free, `data` being at the pose with its centres of mass known.
+
+    Free, the root moves so that all momentum is 0: of the kinetic energy, that of the whole's own motion is taken off
+    (its mass at its centre of mass, its inertia about it).
+    """
+    mujoco.mj_makeM(model, data)
+    momenta = np.zeros(model.nv)
+    held = np.empty((tangents.shape[1], tangents.shape[1]))
+    for column, tangent in enumerate(tangents.T):
+        mujoco.mj_mulM(model, data, momenta, np.ascontiguousarray(tangent))
+        held[:, column] = tangents.T @ momenta
+    linear, angular = np.zeros((3, model.nv)), np.zeros((3, model.nv))
+    mujoco.mj_jacSubtreeCom(model, data, linear, 0)
+    mujoco.mj_angmomMat(model, data, angular, 0)
+    moved, turned = linear @ tangents, angular @ tangents
+    arms = data.xipos - data.subtree_com[0]
+    axes = data.ximat.reshape(-1, 3, 3)
+    inertia = np.einsum("bij,bj,bkj->ik", axes, model.body_inertia, axes)
+    inertia += np.einsum("b,bij->ij", model.body_mass, (arms**2).sum(axis=1)[:, None, None] * np.eye(3))
+    inertia -= np.einsum("b,bi,bj->ij", model.body_mass, arms, arms)
+    whole = float(model.body_subtreemass[0]) * moved.T @ moved + turned.T @ np.linalg.lstsq(inertia, turned)[0]
+    return held, held - whole

@@ -8,6 +8,7 @@ from __future__ import annotations
 
 import math
 from collections.abc import Mapping, Sequence
+from dataclasses import replace
 from typing import Literal
 
 from yellowiron.mechanism.actuation.cylinders import FittedCylinder
@@ -66,19 +67,20 @@ def _cylinder_drive(
     )
     share = f" with {len(twins)} passive twin(s)" if twins else ""
     source = f"pressure times area{share}: {out / 1e3:.1f} kN extending, {back / 1e3:.1f} kN retracting"
-    force = max(out, back)
     if one.cylinder.sources.get("pressure", "").startswith(DEFAULT):
-        force, limited = proportion.force(force, actuator.name, findings)
+        most, limited = proportion.force(max(out, back), actuator.name, findings)
+        out, back = min(out, most), min(back, most)
         source += limited
     source += f"; {PROVISIONAL}"
-    if force <= 0.0:
+    if out <= 0.0 or back <= 0.0:
         _no_limit(actuator, "bore or pressure", findings)
-        force = math.inf
-    speed = max(one.cylinder.speed, one.retract_speed) or math.inf
-    stiffness = force / _SAG if math.isfinite(force) else 1e8
+        out = back = math.inf
+    stiffness = out / _SAG if math.isfinite(out) else 1e8
+    damping = 2.0 * stiffness / (2.0 * math.pi * _FREQUENCY)
+    extending, retracting = one.cylinder.speed or math.inf, one.retract_speed or math.inf
     return _overridden(
         joint,
-        Drive("position", stiffness, 2.0 * stiffness / (2.0 * math.pi * _FREQUENCY), force, speed, source),
+        Drive("position", stiffness, damping, out, extending, source, reverse_force=back, reverse_velocity=retracting),
     )
 
 
@@ -243,8 +245,14 @@ def _overridden(joint: JointTemplate, drive: Drive) -> Drive:
     }
     if not stated:
         return drive
-    values = {n: stated.get(n, getattr(drive, n)) for n in ("stiffness", "damping", "max_force", "max_velocity")}
-    return Drive(drive.kind, **values, source=f"{drive.source}; {STATED}{', '.join(stated)}")
+    # A stated limit holds both ways.
+    return replace(
+        drive,
+        **stated,
+        reverse_force=None if "max_force" in stated else drive.reverse_force,
+        reverse_velocity=None if "max_velocity" in stated else drive.reverse_velocity,
+        source=f"{drive.source}; {STATED}{', '.join(stated)}",
+    )
 
 
 def _no_limit(actuator: ActuatorTemplate, what: str, findings: list[Finding]) -> None:

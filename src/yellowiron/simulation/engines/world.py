@@ -29,7 +29,7 @@ from yellowiron.usd.authoring.stage import (
     set_attribute,
     set_targets,
 )
-from yellowiron.usd.layers.drives import INSTANCES, to_usd_unit, write_drive
+from yellowiron.usd.layers.drives import INSTANCES, speed_limit, write_drive
 from yellowiron.usd.layers.physics import write_mass
 from yellowiron.usd.layers.physx import ITERATIONS, LOOPS_LAST, iterations, loops_last
 from yellowiron.usd.planning.plan import COLLIDERS
@@ -37,6 +37,8 @@ from yellowiron.usd.read import find_machine, open_stage
 
 MACHINE = "/World/machine"
 _GROUND, _SOIL = "/World/ground", "/World/soil"
+_UNLIMITED = 1e6
+"""Metres or degrees a second: PhysX's own word for a joint without a limit."""
 
 
 @dataclass(frozen=True, eq=False)
@@ -150,7 +152,7 @@ def _write_drive(spec: Sdf.PrimSpec, joint: Joint) -> None:
     if joint.drive is None:
         return
     write_drive(spec, joint, joint.drive)
-    velocity, instance = joint.drive.max_velocity * to_usd_unit(joint.type), INSTANCES[joint.type]
+    velocity, instance = min(speed_limit(joint), _UNLIMITED), INSTANCES[joint.type]
     for name in ("physxJoint", f"physxJointAxis:{instance}"):
         set_attribute(spec, f"{name}:maxJointVelocity", Types.Float, velocity)
     set_attribute(spec, "newton:velocityLimit", Types.Float, velocity)

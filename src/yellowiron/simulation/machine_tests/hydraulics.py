@@ -277,7 +277,7 @@ def _grow(
 def _time(trial: _Trial) -> Figure:
     _, state = trial.pose()
     drive, speed = trial.drive(), trial.speed()
-    quick = replace(drive, max_velocity=max(drive.max_velocity, 1.2 * speed))
+    quick = _quick(drive, speed)
     way, seconds, share, why = _run(trial, state, speed, {trial.driven: quick}, watch=False)
     if share < 1.0 - SHARE:
         return Figure(trial.test, None, way / speed, reason=f"it came {100.0 * share:.0f} % of the way: {why}")
@@ -293,7 +293,7 @@ def _lift(trial: _Trial) -> Figure:
     bench, state = trial.pose()
     statics = _lifted(trial, bench, state)
     drive, speed = trial.drive(), trial.speed()
-    strong = replace(drive, max_force=trial.force, max_velocity=max(drive.max_velocity, 1.2 * speed))
+    strong = replace(_quick(drive, speed), max_force=trial.force, reverse_force=None)
     _, _, share, why = _run(trial, state, speed, trial.drives(**{trial.driven: strong}), watch=True)
     arrived = share >= 1.0 - SHARE
     return Figure(
@@ -316,6 +316,11 @@ def _lifted(trial: _Trial, bench: Bench, state: State) -> float:
         if not bears or (trial.test.base == "floating" and not stands(trial.mechanism, bench.chain, each)):
             return max(0, number - 1) / (_SAMPLES - 1)
     return (len(states) - 1) / (_SAMPLES - 1)
+
+
+def _quick(drive: Drive, speed: float) -> Drive:
+    """The drive, fast enough to follow a target of that speed either way."""
+    return replace(drive, max_velocity=max(*drive.speeds, 1.2 * speed), reverse_velocity=None)
 
 
 def _run(

@@ -34,6 +34,9 @@ def locked(drive: Drive) -> Drive:
         drive,
         stiffness=_LOCKED * drive.stiffness,
         max_force=_HELD,
+        reverse_force=None,
+        max_velocity=math.inf,
+        reverse_velocity=None,
     )
 
 

@@ -12,6 +12,9 @@ from yellowiron.usd.authoring.stage import Types, apply_schemas, set_attribute
 INSTANCES = {"revolute": "angular", "prismatic": "linear"}
 """Joint type → the instance of PhysicsDriveAPI that drives its one coordinate."""
 
+CATCHING_UP = 1.05
+"""What follows a target that moves at rated speed may be so much faster than it."""
+
 
 def per_usd_unit(joint_type: str) -> float:
     """Factor from a gain per metre or radian to one per USD's unit (metre, degree)."""
@@ -21,6 +24,16 @@ def per_usd_unit(joint_type: str) -> float:
 def to_usd_unit(joint_type: str) -> float:
     """Factor from metres or radians to USD's unit (metres, degrees)."""
     return math.degrees(1.0) if joint_type == "revolute" else 1.0
+
+
+def speed_limit(joint: Joint) -> float:
+    """The largest speed of a joint's coordinate in metres or degrees a second, for engines that know one: the slower
+    way's, and a little to catch up by; infinite where there is none."""
+    drive = joint.drive
+    if drive is None or joint.cut or not 0.0 < drive.slowest < math.inf:
+        return math.inf
+    spare = CATCHING_UP if drive.kind == "position" else 1.0
+    return spare * drive.slowest * to_usd_unit(joint.type)
 
 
 def write_drive(spec: Sdf.PrimSpec, joint: Joint, drive: Drive) -> None:
@@ -35,5 +48,5 @@ def write_drive(spec: Sdf.PrimSpec, joint: Joint, drive: Drive) -> None:
     for name, value in values.items():
         if value != 0.0:
             set_attribute(spec, f"drive:{instance}:physics:{name}", Types.Float, float(value))
-    if math.isfinite(drive.max_force):
-        set_attribute(spec, f"drive:{instance}:physics:maxForce", Types.Float, float(drive.max_force))
+    if math.isfinite(drive.strongest):
+        set_attribute(spec, f"drive:{instance}:physics:maxForce", Types.Float, float(drive.strongest))

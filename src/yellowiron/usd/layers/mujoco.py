@@ -17,7 +17,7 @@ from yellowiron.model.template import Follows, by_first_leader
 from yellowiron.usd.authoring.stage import Types, apply_schemas, over, set_attribute, set_targets
 from yellowiron.usd.layers.articulation import articulation_roots
 from yellowiron.usd.layers.base import shape_path
-from yellowiron.usd.layers.drives import to_usd_unit
+from yellowiron.usd.layers.drives import speed_limit, to_usd_unit
 from yellowiron.usd.layers.joints import usd_type
 from yellowiron.usd.planning.plan import COLLIDERS, Plan
 
@@ -48,11 +48,8 @@ def write_mujoco(layer: Sdf.Layer, base: Sdf.Layer, plan: Plan) -> None:
         elif joint.name in follows:
             spec = over(layer, plan.joint_paths[joint.name])
             _write_follows(spec, joint, by_first_leader(joint.name, follows), plan)
-        elif joint.drive is not None and not joint.cut and 0.0 < joint.drive.max_velocity < math.inf:
-            spec = over(layer, plan.joint_paths[joint.name])
-            apply_schemas(spec, "NewtonJointAPI")
-            velocity = joint.drive.max_velocity * to_usd_unit(joint.type)
-            set_attribute(spec, "newton:velocityLimit", Types.Float, velocity)
+        else:
+            _write_newton_joint(layer, joint, plan)
     for path in plan.site_paths.values():
         apply_schemas(over(layer, path), "NewtonSiteAPI")
     ruling = {name for name, m in plan.mechanism.materials.items() if m.friction_combine in RULING}
@@ -62,6 +59,18 @@ def write_mujoco(layer: Sdf.Layer, base: Sdf.Layer, plan: Plan) -> None:
             path = f"{plan.body_paths[body.name]}/{COLLIDERS}/{placed.name}"
             if placed.approximation.newton_schema and base.GetPrimAtPath(path).typeName == "Mesh":
                 apply_schemas(over(layer, path), placed.approximation.newton_schema)
+
+
+def _write_newton_joint(layer: Sdf.Layer, joint: Joint, plan: Plan) -> None:
+    """Rated speed, metres or degrees a second, and armature, kg or kg·m² (per radian, whatever the other units)."""
+    values = {"velocityLimit": speed_limit(joint)}
+    if joint.drive is not None and joint.drive.armature > 0.0:
+        values["armature"] = joint.drive.armature
+    for name, value in values.items():
+        if math.isfinite(value):
+            spec = over(layer, plan.joint_paths[joint.name])
+            apply_schemas(spec, "NewtonJointAPI")
+            set_attribute(spec, f"newton:{name}", Types.Float, value)
 
 
 def _write_equality(joint: Sdf.PrimSpec, equality: str) -> None:

@@ -10,10 +10,10 @@ import math
 
 from pxr import Sdf
 
-from yellowiron.model.mechanism import Drive, Joint, Mechanism
+from yellowiron.model.mechanism import Joint, Mechanism
 from yellowiron.usd.authoring.stage import Types, apply_schemas, over, set_attribute
 from yellowiron.usd.layers.articulation import articulation_roots
-from yellowiron.usd.layers.drives import INSTANCES, to_usd_unit
+from yellowiron.usd.layers.drives import INSTANCES, speed_limit
 from yellowiron.usd.planning.pin_links import slewed_cuts
 from yellowiron.usd.planning.plan import COLLIDERS, MESH, Plan
 
@@ -54,8 +54,10 @@ def write_physx(layer: Sdf.Layer, base: Sdf.Layer, plan: Plan) -> None:
         set_attribute(root, "physxArticulation:enabledSelfCollisions", Types.Bool, False)
         set_attribute(root, ITERATIONS, Types.Int, iterations(plan.mechanism))
     for joint in plan.mechanism.joints:
-        if joint.drive is not None and not joint.cut and 0.0 < joint.drive.max_velocity < math.inf:
-            _write_max_velocity(over(layer, plan.joint_paths[joint.name]), joint, joint.drive)
+        if math.isfinite(limit := speed_limit(joint)):
+            _write_joint(over(layer, plan.joint_paths[joint.name]), joint, "maxJointVelocity", limit)
+        if joint.drive is not None and joint.drive.armature > 0.0:
+            _write_joint(over(layer, plan.joint_paths[joint.name]), joint, "armature", joint.drive.armature)
     for name, path in plan.material_paths.items():
         combine = plan.mechanism.materials[name].friction_combine
         if combine is not None:
@@ -76,10 +78,9 @@ def write_physx(layer: Sdf.Layer, base: Sdf.Layer, plan: Plan) -> None:
                 set_attribute(spec, name, _VALUE_TYPES[type(value)], value)
 
 
-def _write_max_velocity(spec: Sdf.PrimSpec, joint: Joint, drive: Drive) -> None:
-    """m/s for slides, degrees a second for pivots."""
-    velocity = drive.max_velocity * to_usd_unit(joint.type)
+def _write_joint(spec: Sdf.PrimSpec, joint: Joint, name: str, value: float) -> None:
+    """A value of a joint's one axis, in both schemas that know it: the newer one may be missing."""
     instance = INSTANCES[joint.type]
     apply_schemas(spec, "PhysxJointAPI", f"PhysxJointAxisAPI:{instance}")
-    set_attribute(spec, "physxJoint:maxJointVelocity", Types.Float, velocity)
-    set_attribute(spec, f"physxJointAxis:{instance}:maxJointVelocity", Types.Float, velocity)
+    for schema in ("physxJoint", f"physxJointAxis:{instance}"):
+        set_attribute(spec, f"{schema}:{name}", Types.Float, value)

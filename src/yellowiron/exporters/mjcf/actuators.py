@@ -1,0 +1,98 @@
+"""MJCF's actuators: position and velocity servos with the forces and speeds of the machine's drives."""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Iterator
+from xml.etree import ElementTree as ET
+
+from yellowiron.exporters.mjcf.values import row, text
+from yellowiron.model.mechanism import Actuator, ActuatorJoint, Drive, Joint, Mechanism
+
+DAMPING = ".damping"
+"""Ends the name of the actuator that damps another's joint; its control does nothing."""
+
+
+def actuator_names(mechanism: Mechanism) -> dict[str, dict[str, str]]:
+    """Actuator → its controls in MJCF, each with its joint: one control named as the actuator, or `actuator.joint` for
+    each joint of a motor with several. Every control is positive in the actuator's positive sense. They are the first
+    of the model's controls; those after them are the dampers of `DAMPING`, which do nothing."""
+    return {
+        actuator.name: {name: entry.joint for name, entry in _controls(actuator, mechanism).items()}
+        for actuator in mechanism.actuators
+    }
+
+
+def section(mechanism: Mechanism) -> ET.Element:
+    """The `actuator` element: every control, then the dampers."""
+    made = ET.Element("actuator")
+    driven = [
+        (name, entry.sign, mechanism.joint(entry.joint))
+        for actuator in mechanism.actuators
+        for name, entry in _controls(actuator, mechanism).items()
+    ]
+    for name, sign, joint in driven:
+        if joint.drive is not None:
+            servo = dict(_servo(joint, joint.drive, sign))
+            ET.SubElement(made, joint.drive.kind, {"name": name, "joint": joint.name, **servo})
+    for name, _, joint in driven:
+        if joint.drive is not None and rated(joint.drive):
+            values = {"name": name + DAMPING, "joint": joint.name, "ctrlrange": "0 1", "gainprm": "0"}
+            values |= {"biastype": "affine", "biasprm": row((0.0, 0.0, -joint.drive.damping))}
+            ET.SubElement(made, "general", values)
+    return made
+
+
+def limits(drive: Drive) -> dict[str, str]:
+    """What a driven joint's own element says of its drive: armature, and for a `rated` one the force of its servo and
+    its damper together."""
+    values = {"armature": text(drive.armature)} if drive.armature > 0.0 else {}
+    if rated(drive) and math.isfinite(drive.strongest):
+        values["actuatorfrcrange"] = row((-drive.forces[0], drive.forces[1]))
+    return values
+
+
+def rated(drive: Drive) -> bool:
+    """Whether a drive's speed is limited in MJCF: it holds a position, and has a rated speed both ways.
+
+    Its force is then clamp(clamp(k·(target − q), −d·v₋, d·v₊) − d·q̇, −F₋, F₊): however far the target, no faster than
+    v₋ and v₊, and no stronger than F₋ and F₊. The inner clamp is the servo's `forcerange`, the outer one the joint's
+    `actuatorfrcrange`, and between them the damper is an actuator of its own.
+    """
+    return drive.kind == "position" and drive.damping > 0.0 and all(0.0 < v < math.inf for v in drive.speeds)
+
+
+def _controls(actuator: Actuator, mechanism: Mechanism) -> dict[str, ActuatorJoint]:
+    joints = {joint.name: joint for joint in mechanism.joints}
+    entries = actuator.joints[:1] if actuator.kind == "cylinder" else actuator.joints
+    driven = [entry for entry in entries if joints[entry.joint].drive is not None and not joints[entry.joint].cut]
+    if len(driven) == 1:
+        return {actuator.name: driven[0]}
+    return {f"{actuator.name}.{entry.joint}": entry for entry in driven}
+
+
+def _servo(joint: Joint, drive: Drive, sign: int) -> Iterator[tuple[str, str]]:
+    """Attributes in the actuator's sense: where its sign is negative, so are its coordinate and its force."""
+    force = drive.forces
+    if drive.kind == "position":
+        yield "kp", text(drive.stiffness)
+        if rated(drive):
+            force = drive.damping * drive.speeds[0], drive.damping * drive.speeds[1]
+        else:
+            yield "kv", text(drive.damping)
+        if joint.lower is not None and joint.upper is not None:
+            yield "ctrlrange", row(sorted((sign * joint.lower, sign * joint.upper)))
+    else:
+        yield "kv", text(drive.damping)
+        if 0.0 < drive.slowest < math.inf:
+            yield "ctrlrange", row(_turned(drive.speeds, sign))
+    if sign < 0:
+        yield "gear", "-1"
+    if 0.0 < force[0] < math.inf and 0.0 < force[1] < math.inf:
+        yield "forcerange", row(_turned(force, sign))
+
+
+def _turned(both: tuple[float, float], sign: int) -> tuple[float, float]:
+    """(least, most) by what holds in the negative and in the positive direction."""
+    negative, positive = both if sign > 0 else (both[1], both[0])
+    return -negative, positive
