@@ -13,7 +13,7 @@ import pytest
 from kit.machines import small_machine
 from yellowiron.exporters import Geometry, actuator_names, export_mjcf, read_geometry
 from yellowiron.model.errors import MechanismError, YellowironError
-from yellowiron.model.mechanism import Joint, Mechanism
+from yellowiron.model.mechanism import Drive, Joint, Mechanism
 from yellowiron.usd import read_mechanism
 
 
@@ -56,20 +56,36 @@ def test_joints_are_hinges_and_slides_with_their_limits(model: mujoco.MjModel, m
             assert made.range == pytest.approx((joint.lower, joint.upper))
 
 
-def test_actuators_carry_gains_and_forces(model: mujoco.MjModel, mechanism: Mechanism) -> None:
-    names = actuator_names(mechanism)
-    assert names["boom"] == {"boom": "slide"}
-    assert names["drive"] == {f"drive.{wheel}_joint": f"{wheel}_joint" for wheel in small_machine.WHEELS}
+def hydraulic(mechanism: Mechanism) -> tuple[Mechanism, Drive]:
+    """The machine with a slide that is weaker and faster one way, and that drive."""
     drive = mechanism.joint("slide").drive
     assert drive is not None
+    drive = dataclasses.replace(drive, max_force=9e3, reverse_force=5e3, max_velocity=0.1, reverse_velocity=0.16)
+    joints = tuple(dataclasses.replace(j, drive=drive) if j.name == "slide" else j for j in mechanism.joints)
+    return dataclasses.replace(mechanism, joints=joints), drive
+
+
+def test_actuators_carry_gains_and_forces(mechanism: Mechanism, tmp_path: Path) -> None:
+    changed, drive = hydraulic(mechanism)
+    model = mujoco.MjModel.from_xml_path(str(export_mjcf(changed, Geometry(), tmp_path)))
+    names = actuator_names(changed)
+    assert names["boom"] == {"boom": "slide"}
+    assert names["drive"] == {f"drive.{wheel}_joint": f"{wheel}_joint" for wheel in small_machine.WHEELS}
     boom, damper, slide = model.actuator("boom"), model.actuator("boom.damping"), model.joint("slide")
     assert boom.gainprm[0] == pytest.approx(drive.stiffness)
     assert boom.biasprm[2] == 0.0 and -damper.biasprm[2] == pytest.approx(drive.damping)
-    assert model.jnt_actfrcrange[slide.id] == pytest.approx((-drive.forces[0], drive.forces[1]))
-    assert boom.forcerange == pytest.approx((-drive.damping * drive.speeds[0], drive.damping * drive.speeds[1]))
+    assert model.jnt_actfrcrange[slide.id] == pytest.approx((-5e3, 9e3))
+    assert boom.forcerange == pytest.approx((-0.16 * drive.damping, 0.1 * drive.damping))
     # What does nothing comes after what does.
     controls = [model.actuator(number).name for number in range(model.nu)]
     assert controls == [*(c for own in names.values() for c in own), "boom.damping"]
+
+
+def test_a_drive_whose_damping_cannot_bring_its_force_to_bear_keeps_its_force(model: mujoco.MjModel) -> None:
+    """Gains that were stated: the servo has both, and no rated speed."""
+    boom = model.actuator("boom")
+    assert boom.biasprm[2] < 0.0 and boom.forcerange[1] > 0.0 and -boom.forcerange[0] == boom.forcerange[1]
+    assert model.nu == 5
 
 
 @pytest.mark.parametrize("way", [-1, 1])
@@ -77,11 +93,9 @@ def test_a_target_far_away_is_reached_at_rated_speed_and_no_load_moves_it_past_i
     mechanism: Mechanism, tmp_path: Path, way: int
 ) -> None:
     """A step to the stroke's end: by area and flow; against a wall: by area and pressure, each way its own."""
-    joint = mechanism.joint("slide")
-    assert joint.drive is not None and joint.lower is not None and joint.upper is not None
-    drive = dataclasses.replace(joint.drive, max_force=9e3, reverse_force=5e3, max_velocity=0.1, reverse_velocity=0.16)
-    driven = dataclasses.replace(joint, drive=drive)
-    changed = dataclasses.replace(mechanism, joints=tuple(driven if j.name == "slide" else j for j in mechanism.joints))
+    changed, drive = hydraulic(mechanism)
+    joint = changed.joint("slide")
+    assert joint.lower is not None and joint.upper is not None
     model = mujoco.MjModel.from_xml_path(str(export_mjcf(changed, Geometry(), tmp_path, base="fixed")))
     model.opt.gravity[:] = 0.0
     data, slide = mujoco.MjData(model), model.joint("slide")

@@ -30,8 +30,10 @@ RATE = 55.0
 RATIO = 0.2
 """The least damping ratio with the mass that the drive moves in half of its poses, the rated load included: that of
 real cylinders is 0.1 to 0.3."""
-OUTRUN = 0.04
-"""The machine's own weight makes a drive no faster than rated by more than this share …"""
+OUTRUN = 0.035
+"""The machine's own weight makes a drive no faster than rated by more than this share, …"""
+_SLIP = 0.5
+"""… and its full force slows it by no more than this …"""
 _SPIN = 0.05
 """… for which it gets an inertia of its own, at most one that its force brings to its speed in so many seconds: nothing
 beside what it moves, which takes a second."""
@@ -67,7 +69,8 @@ def set_gains(
     - Damping d = 0.6 of what a step of 1 ms bears in any pose, the root and the other drives free to give way.
     - Stiffness k = 55 d, less where that would leave a damping ratio under 0.2 with the mass that it moves, more where
       the weight on it in the drawn pose would move it by 2 % of its travel.
-    - Where a weight would drive it 4 % faster than rated, an armature makes room for more damping.
+    - Where a weight would drive it 3.5 % faster than rated, or its full force would slow it by half, an armature makes
+      room for more damping.
     - A velocity drive keeps the damping that its slip asks for, up to what the step bears with such an armature.
       `ringed`: the machine lies in rings of shoes, whose weight its sprockets turn besides: theirs stays.
 
@@ -136,7 +139,7 @@ def position_gains(
         gains += f"stiffness {stiffness / damping:.3g} times a second its damping, for"
     gains += f" the {_shown(mass, unit)} it moves"
     if armature > 0.0:
-        gains += f", with {_shown(armature, unit)} of its own that its weight does not outrun it"
+        gains += f", with {_shown(armature, unit)} of its own that no load changes its speed"
     source = drive.source.replace(PROVISIONAL, gains) if provisional else "; ".join(filter(None, (drive.source, gains)))
     return replace(drive, stiffness=stiffness, damping=damping, armature=armature, source=source)
 
@@ -234,7 +237,8 @@ def _armatures(seen: _Seen, joints: dict[str, Joint], *, ringed: bool) -> Floats
         ):
             if not (0.0 < speed < math.inf and 0.0 < most < math.inf):
                 continue
-            damping = drive.damping if drive.kind == "velocity" else min(force, other) / (OUTRUN * speed)
+            damping = max(min(force, other) / OUTRUN, most / _SLIP) / speed
+            damping = drive.damping if drive.kind == "velocity" else damping
             needed = (damping - dampings[number]) * STEP / SHARE
             made[number] = max(made[number], min(needed, _SPIN * most / speed))
     return made

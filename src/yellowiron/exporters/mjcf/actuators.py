@@ -53,13 +53,15 @@ def limits(drive: Drive) -> dict[str, str]:
 
 
 def rated(drive: Drive) -> bool:
-    """Whether a drive's speed is limited in MJCF: it holds a position, and has a rated speed both ways.
+    """Whether a drive's speed is limited in MJCF: it holds a position, has a rated speed both ways, and damping enough
+    for its whole force at standstill.
 
     Its force is then clamp(clamp(k·(target − q), −d·v₋, d·v₊) − d·q̇, −F₋, F₊): however far the target, no faster than
     v₋ and v₊, and no stronger than F₋ and F₊. The inner clamp is the servo's `forcerange`, the outer one the joint's
     `actuatorfrcrange`, and between them the damper is an actuator of its own.
     """
-    return drive.kind == "position" and drive.damping > 0.0 and all(0.0 < v < math.inf for v in drive.speeds)
+    both = zip(drive.forces, drive.speeds, strict=True)
+    return drive.kind == "position" and all(0.0 < v < math.inf and f <= drive.damping * v for f, v in both)
 
 
 def _controls(actuator: Actuator, mechanism: Mechanism) -> dict[str, ActuatorJoint]:
