@@ -2,6 +2,8 @@
 
 from __future__ import annotations
 
+from dataclasses import replace
+
 import numpy as np
 import pytest
 from hypothesis import given, settings
@@ -119,3 +121,47 @@ def test_entries_win_in_order() -> None:
     assert [p[0] if p else None for p in pick] == ["part", "document role", "document role"]
     assert Choice(template(), {}, own).of("X", "arm_pin") == ("template ancestor", "template: role 'base'")
     assert Choice(template(), {}, {}).of("X", None) is None
+
+
+def usual(kilograms: float, *, open_arm: bool = False, **values: float) -> Mechanism:
+    """The crane, of a type that weighs so many kilograms where it stands on one metre, as its base does."""
+    assembly, alignment = machine()
+    if open_arm:
+        shapes = {key: replace(shape, closed=key != "arm") for key, shape in assembly.shapes.items()}
+        assembly = replace(assembly, shapes=shapes)
+    known = template()
+    weighed = tuple(replace(w, usual_weight=kilograms) if w.mass_of == "*" else w for w in known.wanted)
+    return build_mechanism(assembly, replace(known, wanted=weighed), alignment, specifications(**values), name="crane")
+
+
+def total(mechanism: Mechanism) -> float:
+    return sum(body.mass for body in mechanism.bodies)
+
+
+def test_without_a_weight_the_usual_one_of_type_and_size_is_assumed_and_told() -> None:
+    drawn = total(build())
+    for kilograms in (0.4 * drawn, 3.0 * drawn):
+        built = usual(kilograms)
+        assert total(built) == pytest.approx(kilograms)
+        (finding,) = [f for f in built.findings if f.code == "MEC035"]
+        assert finding.severity == "warning" and "stand on 1.00 m" in finding.message
+        assert '--set "Operating Weight=… kg"' in finding.hint
+
+
+def test_a_weight_that_is_near_the_usual_one_or_published_stays() -> None:
+    drawn = total(build())
+    assert total(usual(1.3 * drawn)) == pytest.approx(drawn)
+    assert total(usual(9.0 * drawn, Operating_Weight=2000.0)) == pytest.approx(2000.0)
+    for built in (usual(1.3 * drawn), usual(9.0 * drawn, Operating_Weight=2000.0)):
+        assert not [f for f in built.findings if f.code == "MEC035"]
+
+
+def test_what_a_weight_leaves_is_in_the_open_shapes() -> None:
+    """A box of aluminium as a sheet: as thick as the weight makes it, and what is closed keeps its volume."""
+    area, closed = 2.0 * (2.0 * 0.5 + 2.0 * 0.1 + 0.5 * 0.1), total(build()) - 2.0 * 0.5 * 0.1 * 2700.0
+    built = usual(1.0, open_arm=True, Operating_Weight=closed + 0.012 * area * 2700.0)
+    assert mass_of(built, "base") == pytest.approx(mass_of(build(), "base"), rel=1e-3)
+    assert any(f.code == "MEC038" and "12 mm" in f.message for f in built.findings)
+    # No sheet is thicker than 20 mm: the rest is everybody's.
+    built = usual(10.0 * closed, open_arm=True)
+    assert total(built) == pytest.approx(10.0 * closed) and mass_of(built, "base") > 2.0 * mass_of(build(), "base")

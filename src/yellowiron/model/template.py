@@ -149,7 +149,8 @@ class Wanted:
     headings that support it; `mass_of` names the body (or `*`, the whole machine) whose mass it is; `length_of` is `*`
     for the whole machine's length; `in_label_of` another wanted value in whose label it is printed; `low_end_of`
     another one whose ranges it is the lower end of; `where` says in which table makers print it. `when`: choices under
-    which it is missed where no sheet has it."""
+    which it is missed where no sheet has it. `usual_weight`: what machines weigh, kg, for each cubic metre of the cube
+    of the length of their tracks, or of their wheels from front to rear."""
 
     name: str
     dimension: str
@@ -166,6 +167,7 @@ class Wanted:
     minimum: float | None = None
     maximum: float | None = None
     when: Choices = field(default_factory=dict, hash=False)
+    usual_weight: float | None = None
 
 
 @dataclass(frozen=True)

@@ -63,6 +63,7 @@ def read_wanted(document: Document, roles: tuple[Role, ...]) -> tuple[Wanted, ..
                 minimum=bounds[0],
                 maximum=bounds[1],
                 when=choices_of(entry, "when"),
+                usual_weight=entry.get("usual_weight", {}).get("per_cubic_metre"),
             )
         )
     return tuple(wanted)

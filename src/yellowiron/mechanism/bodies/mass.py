@@ -7,14 +7,15 @@ I = tr(Σ)·1 − Σ then always meets the triangle inequality.
 
 from __future__ import annotations
 
-from collections.abc import Iterable, Mapping, Sequence
+from collections.abc import Container, Iterable, Mapping, Sequence
 from dataclasses import dataclass
 
 import numpy as np
 
 from yellowiron.mechanism.bodies.choice import Choice
+from yellowiron.mechanism.bodies.usual_weight import usual_weight
 from yellowiron.mechanism.placement import Placement
-from yellowiron.mechanism.values import known
+from yellowiron.mechanism.values import Known, known
 from yellowiron.model.finding import Finding
 from yellowiron.model.geometry import Floats, Shape
 from yellowiron.model.specification import Specifications
@@ -24,17 +25,24 @@ from yellowiron.support.text import display, with_article
 STEEL = 7850.0
 """Density where a material states none, kg/m³."""
 SHELL = 0.005
-"""Thickness of an open mesh, metres: its mass is surface × this × density."""
+"""Thickness of an open mesh, metres, where nothing else is known: its mass is surface × this × density."""
+THICKNESS = (0.002, 0.02)
+"""… and within which the machine's weight decides it: plates of small machines and of large ones."""
 _THIN = 1e-4
 """Least radius of gyration of a body along any axis, metres: an inertia of zero stops every engine."""
 _PLAUSIBLE = (0.5, 2.0)
 """Factors to a published weight outside of this are a warning."""
+
+_WHOLE = "*"
+"""The whole machine, where a weight says of what it is."""
 
 _USUAL = 30.0
 """What a machine weighs, kg, for each m³ of the cube of its box's diagonal: from makers' weights and dimensions, 18
 (a 20 t excavator) to 35 (a 12 t compactor); dozers 60."""
 _SOLID = 3.0
 """So many times as much and more is of hollow things that are drawn solid."""
+_NEAR = (0.67, 1.5)
+"""By volume and density a machine may weigh so many times what is usual for its type and size."""
 
 
 @dataclass(frozen=True, eq=False)
@@ -146,11 +154,20 @@ def weigh(
     choice = Choice(template, by_document, template.materials)
     used: dict[str, Material] = {}
     materials = _part_materials(placement, choice, used)
-    moments = _part_moments(placement, materials, findings)
+    moments, sheets = _part_moments(placement, materials, findings)
+    rows = [row for body in bodies for row in placement.rows_of_body(body)]
+    published = _published(template, specifications)
+    assumed = None if published else _assumed(sum(moments[row].mass for row in rows), placement, template, findings)
+    total = published[_WHOLE][1] if _WHOLE in published else assumed
+    if total is not None:
+        moments = _rolled(moments, sheets, rows, total.value, placement, findings)
     weights = {b: sum(moments[row].mass for row in placement.rows_of_body(b)) for b in bodies}
-    factors = _factors(weights, template, specifications, findings)
-    if all(f.value == 1.0 for f in factors.values()):
-        factors = _hollowed(weights, placement, findings) or factors
+    if assumed is not None:
+        value = assumed.value / sum(weights.values())
+        reached = Factor(value, f"volume × density × {value:.4g} to {assumed.source}")
+        factors = dict.fromkeys(weights, reached)
+    else:
+        factors = _factors(weights, published, findings)
     return Masses(materials, moments, factors, used, choice)
 
 
@@ -180,11 +197,12 @@ def key_of(material: Material, keys: dict[str, Material]) -> str:
 
 def _part_moments(
     placement: Placement, materials: Sequence[PartMaterial], findings: list[Finding]
-) -> tuple[Moments, ...]:
-    """The mass of every placed part by its volume and density, machine frame."""
+) -> tuple[tuple[Moments, ...], frozenset[int]]:
+    """The mass of every placed part by its volume and density, machine frame, and the rows of those that are no closed
+    solids: sheets of `SHELL`."""
     result = []
     undense: dict[str, None] = {}
-    open_shapes: dict[str, str] = {}
+    sheets: dict[int, str] = {}
     for row, chosen in enumerate(materials):
         shape = placement.shapes[row]
         density = chosen.material.density
@@ -196,29 +214,79 @@ def _part_moments(
         else:
             corners = placement.points(row)[shape.mesh.triangles]
             result.append(shell_moments(corners, density * SHELL))
-            open_shapes.setdefault(shape.key, placement.parts[row].id)
+            sheets[row] = shape.key
     words = f"The material has no density: {STEEL:g} kg/m³ was taken."
     findings += [Finding("MEC030", "info", key, words) for key in undense]
     words = f"The shape is not a closed solid: its mass is that of {with_article(f'{SHELL * 1e3:g}')} mm shell."
     hint = "Close the solid in CAD, or give its body's weight."
-    findings += [Finding("MEC031", "info", where, words, hint) for where in open_shapes.values()]
-    return tuple(result)
+    shown = {key: placement.parts[row].id for row, key in reversed(sheets.items())}
+    findings += [Finding("MEC031", "info", where, words, hint) for where in reversed(shown.values())]
+    return tuple(result), frozenset(sheets)
+
+
+def _published(template: Template, specifications: Specifications) -> dict[str, tuple[str, Known]]:
+    """Body (or `*`) → the wanted name that gives its weight, and the weight, kg."""
+    return {w.mass_of: (w.name, k) for w in template.wanted if w.mass_of and (k := known(specifications, w.name))}
+
+
+def _assumed(drawn: float, placement: Placement, template: Template, findings: list[Finding]) -> Known | None:
+    """The weight (kg) that a machine of this type and size usually has, where none is published and volume and density
+    give another; MEC035 then."""
+    usual = usual_weight(placement, template)
+    if usual is None:
+        return _hollowed(drawn, placement, _hint(template), findings)
+    if drawn <= 0.0 or _NEAR[0] <= drawn / usual.value <= _NEAR[1]:
+        return None
+    words = (
+        f"By volume and density it would weigh {display(drawn, 'kg')}: hollow parts are drawn solid, or solid ones as "
+        f"sheets. No sheet gives its weight: {display(usual.value, 'kg')} was assumed, {usual.source}."
+    )
+    findings.append(Finding("MEC035", "warning", "mass", words, _hint(template)))
+    return usual
+
+
+def _hint(template: Template) -> str:
+    """What to give for a weight that was assumed."""
+    name = next((w.name for w in template.wanted if w.mass_of == _WHOLE), None)
+    return f'Give --set "{name}=… kg", or a sheet.' if name is not None else "Give its operating weight, or a sheet."
+
+
+def _rolled(
+    moments: Sequence[Moments],
+    sheets: Container[int],
+    rows: Sequence[int],
+    total: float,
+    placement: Placement,
+    findings: list[Finding],
+) -> tuple[Moments, ...]:
+    """The parts with sheets as thick as the machine's weight makes them: what is closed has its volume, and the rest of
+    the weight is in what is not."""
+    open_rows = [row for row in rows if row in sheets]
+    thin = sum(moments[row].mass for row in open_rows)
+    if thin <= 0.0:
+        return tuple(moments)
+    solid = sum(moments[row].mass for row in rows) - thin
+    thickness = float(np.clip(SHELL * (total - solid) / thin, *THICKNESS))
+    words = (
+        f"Its open shapes weigh as sheets of {1e3 * thickness:.2g} mm, by what the machine's weight leaves for them."
+    )
+    findings.append(Finding("MEC038", "info", "mass", words, "Close the solids in CAD, or give their bodies' weights."))
+    return tuple(m.scaled(thickness / SHELL) if row in sheets else m for row, m in enumerate(moments))
 
 
 def _factors(
-    masses: Mapping[str, float], template: Template, specifications: Specifications, findings: list[Finding]
+    masses: Mapping[str, float], published: Mapping[str, tuple[str, Known]], findings: list[Finding]
 ) -> dict[str, Factor]:
     """The factor of each body's mass: to its published weight where there is one, and to what these leave of the
     operating weight elsewhere. The operating weight includes fluids and operator, so they are spread over the
     bodies."""
     factors = {body: Factor(1.0, "volume × density") for body in masses}
-    published = {w.mass_of: (w.name, k) for w in template.wanted if w.mass_of and (k := known(specifications, w.name))}
     for body, (name, weight) in published.items():
         if masses.get(body, 0.0) > 0.0:
             value = weight.value / masses[body]
             factors[body] = Factor(value, f"volume × density × {value:.4g} to {weight.source}")
             _report(body, value, name, weight.value, findings)
-    total = published["*"][1] if "*" in published else None
+    total = published[_WHOLE][1] if _WHOLE in published else None
     if total is None:
         return factors
     rest = [body for body in masses if body not in published]
@@ -244,21 +312,19 @@ def _factors(
     return factors
 
 
-def _hollowed(weights: Mapping[str, float], placement: Placement, findings: list[Finding]) -> dict[str, Factor] | None:
-    """The factor of every body's mass to what a machine of this size usually weighs, where no weight is published and
-    it weighs far more: a cab or a frame that is drawn as one solid block. Else None."""
-    points = placement.points_of([row for body in weights for row in placement.rows_of_body(body)])
-    drawn = sum(weights.values())
+def _hollowed(drawn: float, placement: Placement, hint: str, findings: list[Finding]) -> Known | None:
+    """What a machine of this size usually weighs (kg), where it weighs far more: a cab or a frame that is drawn as one
+    solid block. Else None."""
+    points = placement.points_of(range(len(placement.parts)))
     usual = _USUAL * float(np.linalg.norm(np.ptp(points, axis=0))) ** 3 if len(points) else 0.0
     if not drawn > _SOLID * usual > 0.0:
         return None
-    value = usual / drawn
     words = (
         f"By volume and density it would weigh {display(drawn, 'kg')}: hollow parts are drawn solid. No sheet gives "
         f"its weight: {display(usual, 'kg')} was taken, usual for its size."
     )
-    findings.append(Finding("MEC035", "warning", "mass", words, "Give its operating weight, or a sheet."))
-    return {body: Factor(value, f"volume × density × {value:.4g} to the usual weight of its size") for body in weights}
+    findings.append(Finding("MEC035", "warning", "mass", words, hint))
+    return Known(usual, "the usual weight of its size")
 
 
 def _report(where: str, factor: float, name: str, weight: float, findings: list[Finding]) -> None:
