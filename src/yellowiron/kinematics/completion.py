@@ -6,6 +6,7 @@ import math
 from dataclasses import dataclass, field, replace
 from typing import Any
 
+from yellowiron.kinematics.brakes import set_brakes
 from yellowiron.kinematics.gains import set_gains
 from yellowiron.kinematics.solver.branches import branch_pivots, branch_sines
 from yellowiron.kinematics.solver.chain import ClosedChain, Component
@@ -52,7 +53,7 @@ def complete(mechanism: Mechanism) -> Mechanism:
       small margin; limits that are already there stay.
     - The stroke of a driven slide ends where the linkage locks.
     - `Loop.branch`: the sign of each loop's triangle of pivots (`branches.branch_pivots`).
-    - Gains of drives that have none, or only provisional ones (`gains.set_gains`).
+    - Gains of drives that have none, or only provisional ones (`gains.set_gains`); the parking brakes of motors.
 
     Findings: KIN001 stroke past a dead point, KIN002 unreachable combination of strokes, KIN003 branch, KIN004 passive
     twin out of stroke, KIN005 mobility, KIN006 stated limit against the loop's, KIN007 drive without force or speed,
@@ -78,6 +79,7 @@ def complete(mechanism: Mechanism) -> Mechanism:
     loops = _branches(mechanism, grids, placed, work)
     work.findings += strong_enough(chain, grids, work.joints)
     work.findings += set_gains(chain, grids, work.joints, ringed=bool(whole.floating))
+    set_brakes(chain, grids, work.joints)
     return replace(
         whole,
         joints=tuple(work.joints[joint.name] for joint in whole.joints),

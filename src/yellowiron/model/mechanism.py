@@ -82,7 +82,7 @@ class Drive:
 
     Both are those of the joint's positive direction (a cylinder that extends); `reverse_force` and `reverse_velocity`
     are those of the other (one that retracts), None where they are the same. `armature` is an inertia of the drive's
-    own along its coordinate, kg or kg·m²."""
+    own along its coordinate, kg or kg·m²; `brake` what its parking brake holds, N·m."""
 
     kind: Literal["position", "velocity"]
     stiffness: float
@@ -93,6 +93,7 @@ class Drive:
     reverse_force: float | None = None
     reverse_velocity: float | None = None
     armature: float = 0.0
+    brake: float = 0.0
 
     @property
     def forces(self) -> tuple[float, float]:

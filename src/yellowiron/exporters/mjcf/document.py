@@ -25,8 +25,6 @@ the step alone, after the constraint forces were found without it (wheel loader 
 FREE_INTEGRATOR = "implicitfast"
 """… which machines without loops or couplings have: nothing is to be held closed, and hinges in a row, each driven for
 the mass it moves while the others stand, are unstable with `Euler` where that is many times the mass it moves alone."""
-SOLIMP = (0.9999, 0.9999, 0.001, 0.5, 2.0)
-"""As in the USD. With 0.999 first, pins of a loaded wheel loader err ten times as much (0.022 against 0.002 mm)."""
 ASSETS = "assets"
 GROUND_FRICTION = 0.7
 
@@ -110,7 +108,8 @@ class _Document:
         top.append(self._asset())
         top.append(world)
         held = (self._contact(), self._equality(), self._tendon(), actuators.section(self._mechanism))
-        for section in (*held, sensors.section(self._mechanism), self._keyframe()):
+        own = (actuators.brakes(self._mechanism), sensors.section(self._mechanism), self._keyframe())
+        for section in (*held, *own):
             if len(section):
                 top.append(section)
         return top
@@ -127,7 +126,7 @@ class _Document:
         top = ET.Element("default")
         inner = ET.SubElement(top, "default", {"class": "machine"})
         ET.SubElement(inner, "mesh", inertia="shell")
-        ET.SubElement(inner, "equality", solref=row((2.0 * self._timestep, 1.0)), solimp=row(SOLIMP))
+        ET.SubElement(inner, "equality", solref=row((2.0 * self._timestep, 1.0)), solimp=row(actuators.SOLIMP))
         visual = ET.SubElement(inner, "default", {"class": "visual"})
         ET.SubElement(visual, "geom", type="mesh", contype="0", conaffinity="0", group="2", mass="0")
         collision = ET.SubElement(inner, "default", {"class": "collision"})

@@ -17,6 +17,7 @@ from yellowiron.usd.authoring.stage import (
     set_targets,
 )
 from yellowiron.usd.layers.articulation import BASES, write_base_set
+from yellowiron.usd.layers.brakes import BRAKES, has_brakes, write_brakes_set
 from yellowiron.usd.layers.physx import LOOPS_LAST, loops_last
 from yellowiron.usd.layers.sensors import FILE as SENSOR_FILE
 from yellowiron.usd.planning.plan import Plan
@@ -36,7 +37,7 @@ _SURFACE_LIFT = -0.001
 def write_machine_layer(layer: Sdf.Layer, plan: Plan) -> None:
     """The machine's own file: default prim, metadata, payload and variant sets; no ground, light or scene.
 
-    `Base` is empty here: the layers of `Physics` have the same set, and follow the selection made here.
+    `Base` and `Brakes` are empty here: the layers of `Physics` have the same sets, and follow the selection made here.
     """
     spec = define(layer, plan.root, "Xform")
     set_display_name(spec, plan.mechanism.name)
@@ -47,6 +48,10 @@ def write_machine_layer(layer: Sdf.Layer, plan: Plan) -> None:
     spec.variantSetNameList.prependedItems = ["Base", "Physics"]
     spec.variantSelections.update({"Base": BASES[0], "Physics": "on"})
     write_base_set(spec)
+    if has_brakes(plan.mechanism):
+        spec.variantSetNameList.prependedItems = [*spec.variantSetNameList.prependedItems, "Brakes"]
+        spec.variantSelections.update({"Brakes": BRAKES[0]})
+        write_brakes_set(spec)
     physics = Sdf.VariantSetSpec(spec, "Physics")
     Sdf.VariantSpec(physics, "off")
     on = Sdf.VariantSpec(physics, "on").primSpec

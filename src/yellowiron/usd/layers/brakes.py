@@ -1,0 +1,55 @@
+"""Parking brakes: dry friction on the joints that motors turn, in a variant set of the machine."""
+
+from __future__ import annotations
+
+from pxr import Sdf, Vt
+
+from yellowiron.model.mechanism import Mechanism
+from yellowiron.usd.authoring.stage import Types, apply_schemas, over, set_attribute
+from yellowiron.usd.layers.drives import INSTANCES
+from yellowiron.usd.layers.mujoco import SOLIMP, SOLREF
+from yellowiron.usd.planning.plan import Plan
+
+BRAKES = ("released", "set")
+"""Variants of the set `Brakes`, the first of them the one that a machine file selects."""
+
+
+def has_brakes(mechanism: Mechanism) -> bool:
+    """Whether a motor of the machine has a parking brake."""
+    return any(joint.drive is not None and joint.drive.brake > 0.0 for joint in mechanism.joints)
+
+
+def write_brakes_set(spec: Sdf.PrimSpec) -> None:
+    """The variant set `Brakes` on a layer's machine prim. Its selection is the machine file's: layers below follow."""
+    variants = Sdf.VariantSetSpec(spec, "Brakes")
+    for name in sorted(BRAKES):
+        Sdf.VariantSpec(variants, name)
+
+
+def write_brakes(layer: Sdf.Layer, plan: Plan, engine: str) -> None:
+    """What holds the joints while the brakes are set, in the words of `physx` or `newton`: N·m."""
+    if not has_brakes(plan.mechanism):
+        return
+    machine = over(layer, plan.root)
+    write_brakes_set(machine)
+    machine.variantSetNameList.prependedItems = [*machine.variantSetNameList.prependedItems, "Brakes"]
+    for joint in plan.mechanism.joints:
+        if joint.drive is None or not joint.drive.brake > 0.0:
+            continue
+        below = plan.joint_paths[joint.name][len(plan.root) + 1 :]
+        spec = over(layer, f"{plan.root}{{Brakes=set}}{below}")
+        {"newton": _newton, "physx": _physx}[engine](spec, INSTANCES[joint.type], joint.drive.brake)
+
+
+def _newton(spec: Sdf.PrimSpec, _: str, brake: float) -> None:
+    apply_schemas(spec, "NewtonJointAPI", "MjcJointAPI")
+    set_attribute(spec, "newton:friction", Types.Float, brake)
+    # As hard as a cut: with MuJoCo's own, what it holds creeps by millimetres a second.
+    for name, values in (("solreffriction", SOLREF), ("solimpfriction", SOLIMP)):
+        set_attribute(spec, f"mjc:{name}", Types.DoubleArray, Vt.DoubleArray(values), uniform=True)
+
+
+def _physx(spec: Sdf.PrimSpec, instance: str, brake: float) -> None:
+    apply_schemas(spec, f"PhysxJointAxisAPI:{instance}")
+    for kind in ("static", "dynamic"):
+        set_attribute(spec, f"physxJointAxis:{instance}:{kind}FrictionEffort", Types.Float, brake)

@@ -1,0 +1,86 @@
+"""Parking brakes: what is slewed on a slope creeps with its brake released, and stays with it set, in every engine."""
+
+from __future__ import annotations
+
+import math
+from pathlib import Path
+
+import mujoco
+import numpy as np
+import pytest
+from in_engines import need
+from plain_engines import play, world_with
+
+from kit.machines.simple_machines import write
+from yellowiron.exporters import Geometry, export_mjcf
+from yellowiron.kinematics import complete
+from yellowiron.kinematics.brakes import SLOPE
+from yellowiron.model.mechanism import Actuator, ActuatorJoint, Body, Drive, Joint, Mechanism
+from yellowiron.usd import read_mechanism
+
+ARM, MASS = 2.0, 1000.0
+ACROSS = np.array([0.0, math.sin(SLOPE), -math.cos(SLOPE)])
+"""Which way things fall where the machine stands across the slope."""
+
+
+def slewing() -> Mechanism:
+    """An arm on a motor of vertical axis, soft enough to creep, and a weight at its end."""
+
+    def body(name: str, mass: float, x: float) -> Body:
+        return Body(name, (x, 0.0, 1.0), mass, (x, 0.0, 1.0), 0.1 * mass * np.eye(3), (), np.zeros((0, 3)))
+
+    motor = Drive("velocity", 0.0, 2e4, 1e6, 1.0, "stated; template states damping")
+    return Mechanism(
+        name="slewing",
+        equipment_type="test",
+        root="stand",
+        bodies=(body("stand", 3000.0, 0.0), body("arm", 10.0, 0.0), body("weight", MASS, ARM)),
+        joints=(
+            Joint("swing", "revolute", "stand", "arm", (0.0, 0.0, 1.0), (0.0, 0.0, 1.0), drive=motor),
+            Joint("held", "fixed", "arm", "weight", (ARM, 0.0, 1.0), (0.0, 0.0, 1.0)),
+        ),
+        actuators=(Actuator("swing", "motor", (ActuatorJoint("swing"),)),),
+    )
+
+
+@pytest.fixture(scope="module")
+def written(tmp_path_factory: pytest.TempPathFactory) -> tuple[Mechanism, Path]:
+    mechanism = complete(slewing())
+    return mechanism, write(tmp_path_factory.mktemp("slewing"), mechanism)
+
+
+def test_the_brake_holds_what_is_slewed_on_the_slope_and_a_quarter_more(written: tuple[Mechanism, Path]) -> None:
+    mechanism, file = written
+    for each in (mechanism, read_mechanism(file)):
+        drive = each.joint("swing").drive
+        assert drive is not None
+        assert drive.brake == pytest.approx(1.25 * 9.80665 * MASS * ARM * math.sin(SLOPE), rel=1e-3)
+
+
+def test_mjcf_has_the_brakes_for_whoever_sets_them(written: tuple[Mechanism, Path], tmp_path: Path) -> None:
+    mechanism, _ = written
+    turned = {}
+    for brakes in (False, True):
+        model = mujoco.MjModel.from_xml_path(str(export_mjcf(mechanism, Geometry(), tmp_path, base="fixed")))
+        model.opt.gravity[:] = 9.81 * ACROSS
+        if brakes:
+            model.dof_frictionloss[model.joint("swing").dofadr[0]] = model.numeric("swing.brake").data[0]
+        data = mujoco.MjData(model)
+        mujoco.mj_step(model, data, 2000)
+        turned[brakes] = abs(float(data.qpos[0]))
+    assert turned[False] > 0.3 and turned[True] < 1e-3
+
+
+@pytest.mark.parametrize("engine", ["newton", "physx"])
+def test_the_variant_sets_the_brakes(written: tuple[Mechanism, Path], engine: str) -> None:
+    need(engine)
+    moved = {}
+    for brakes in ("released", "set"):
+        stage = world_with(written[1], ACROSS)
+        machine = stage.GetPrimAtPath("/World/machine")
+        assert machine.GetVariantSet("Brakes").GetVariantNames() == ["released", "set"]
+        machine.GetVariantSet("Brakes").SetVariantSelection(brakes)
+        weight = next(str(p.GetPath()) for p in stage.Traverse() if p.GetName() == "weight")
+        poses = [play(engine, stage, [weight], seconds)[weight] for seconds in (0.01, 2.0)]
+        moved[brakes] = float(np.linalg.norm(poses[1] - poses[0]))
+    assert moved["released"] > 0.3 and moved["set"] < 1e-3
