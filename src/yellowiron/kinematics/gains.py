@@ -39,8 +39,9 @@ _SPIN = 0.05
 beside what it moves, which takes a second."""
 _SAGS = 0.02
 """A drive gives way to the weight on it by no more than this share of its travel: short strokes need more stiffness."""
-_STIFFEST = 200.0
-"""… but never more than so many times its damping, 1/s: a fifth of what the step bears."""
+_SOFTEST, _STIFFEST = 10.0, 200.0
+"""… but never more than the second of these times its damping, 1/s, a fifth of what the step bears; a stiffness that is
+given may be as little as the first."""
 _OWN, _OTHERS, _LOOSE = 13, 25, 27
 """Poses sampled: of a drive's own component, of each other one, and of drives outside of all loops."""
 _MOUNTED = 0.01
@@ -115,7 +116,8 @@ def position_gains(
     the `mass` it usually moves (kg, kg·m²), no less than `softest` (N/m, N·m/rad).
 
     Gains that the drive has stay, unless its source calls them provisional; those that "template states" names after
-    that stay too. A stiffness that stays gets critical damping, d = 2√(km), where it has none.
+    that stay too. A stiffness that stays gets critical damping, d = 2√(km), where it has none, and more where the step
+    bears it, by which it still follows a tenth of a second behind.
     """
     provisional = PROVISIONAL in drive.source
     stated = drive.source.partition(STATED)[2]
@@ -126,12 +128,12 @@ def position_gains(
     if keep_damping:
         damping, armature = drive.damping, 0.0
     elif keep_stiffness:
-        damping, armature = 2.0 * math.sqrt(drive.stiffness * mass), 0.0
+        damping = max(2.0 * math.sqrt(drive.stiffness * mass), min(damping, drive.stiffness / _SOFTEST))
     rate = min(RATE, damping / (4.0 * RATIO**2 * mass)) if mass > 0.0 else RATE
     stiffness = min(max(rate * damping, softest), _STIFFEST * damping)
     if keep_stiffness:
         stiffness = drive.stiffness
-        gains = "gains: damped critically for"
+        gains = "gains: damped critically or more for"
     elif keep_damping:
         gains = f"gains: stiffness {stiffness / damping:.3g} times a second its damping, for"
     else:

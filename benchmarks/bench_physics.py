@@ -1,0 +1,188 @@
+"""The machine's own physics, by plain engine calls on the exported MJCF: speed, force, stability, lag and brakes.
+
+    python benchmarks/bench_physics.py [FILE.usda …]     (default: both examples, built into a temporary folder)
+
+Nothing of `yellowiron.simulation` is used. Every control is stepped from rest to both ends of its range; the speed is
+held against the cylinder's flow over area, the force against pressure times area, and the longest stable time step
+against the file's own. The slope is gravity turned by 20 degrees about the machine's transverse axis.
+"""
+
+from __future__ import annotations
+
+import argparse
+import math
+import subprocess
+import sys
+import tempfile
+from collections.abc import Iterator
+from pathlib import Path
+
+import mujoco
+import numpy as np
+
+from yellowiron.usd import read_mechanism
+
+ROOT = Path(__file__).resolve().parent.parent
+EXAMPLES = ("wheel_loader", "excavator")
+SLOPE = math.radians(20.0)
+WALL = 1e12
+"""kg: an armature that nothing moves."""
+
+
+def main() -> None:
+    parser = argparse.ArgumentParser(description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter)
+    parser.add_argument("files", nargs="*", type=Path)
+    files = parser.parse_args().files
+    with tempfile.TemporaryDirectory() as folder:
+        for file in files or [built(name, Path(folder)) for name in EXAMPLES]:
+            bench(file, Path(folder, f"{file.stem}.mjcf"))
+
+
+def built(name: str, folder: Path) -> Path:
+    example = ROOT / "examples" / name
+    cad, sheet = next(example.glob("*.step")), next(example.glob("*.pdf"))
+    command = [sys.executable, "-m", "yellowiron", "build", name, "--cad", cad, "--specs", sheet]
+    subprocess.run([*command, "--out", folder / name], check=True, capture_output=True)
+    return folder / name / f"{name}.usda"
+
+
+def bench(file: Path, folder: Path) -> None:
+    subprocess.run(
+        [sys.executable, "-m", "yellowiron", "export", file, "--to", "mjcf", "--out", folder],
+        check=True, capture_output=True,
+    )  # fmt: skip
+    mechanism = read_mechanism(file)
+    scene = folder / "scene.xml"
+    print(f"\n{file.stem}: {sum(b.mass for b in mechanism.bodies):.0f} kg")
+    for name, joint in cylinders(scene):
+        cylinder = next(c for c in mechanism.cylinders if c.slide == joint)
+        drive = mechanism.joint(joint).drive
+        assert drive is not None
+        print(f"  {name}")
+        for way, label in ((0, "retracts"), (1, "extends")):
+            rated, force = drive.speeds[way], drive.forces[way]
+            over, stronger = fastest(scene, name, way) / rated - 1.0, stalled(scene, name, way) / force - 1.0
+            print(
+                f"    {label}: fastest {over:+7.1%} of {rated:.3f} m/s; force {stronger:+6.1%} of {force / 1e3:.0f} kN "
+                f"(one cylinder: {(cylinder.pull_force, cylinder.push_force)[way] / 1e3:.0f})"
+            )
+        print(f"    lag {1e3 * lag(scene, name):.0f} ms")
+    print(f"  longest stable step: {margin(scene):.2f} times the file's")
+    released, held = (creep(scene, brakes=brakes) for brakes in (False, True))
+    print(f"  on 20 degrees: {1e3 * released:.1f} mm/s with its brakes released, {1e3 * held:.2f} with them set")
+
+
+def load(scene: Path) -> tuple[mujoco.MjModel, mujoco.MjData]:
+    model = mujoco.MjModel.from_xml_path(str(scene))
+    data = mujoco.MjData(model)
+    mujoco.mj_resetDataKeyframe(model, data, 0)
+    return model, data
+
+
+def cylinders(scene: Path) -> Iterator[tuple[str, str]]:
+    """Every control of a slide, and that slide."""
+    model, _ = load(scene)
+    for number in range(model.nu):
+        name, joint = model.actuator(number).name, int(model.actuator_trnid[number, 0])
+        if not name.endswith(".damping") and model.jnt_type[joint] == mujoco.mjtJoint.mjJNT_SLIDE:
+            yield name, model.joint(joint).name
+
+
+def address(model: mujoco.MjModel, name: str) -> tuple[int, int, int, float]:
+    """Of a control: its number, its joint's position and velocity index, and its sign."""
+    number = model.actuator(name).id
+    joint = int(model.actuator_trnid[number, 0])
+    return number, int(model.jnt_qposadr[joint]), int(model.jnt_dofadr[joint]), float(model.actuator_gear[number, 0])
+
+
+def end_of(model: mujoco.MjModel, number: int, sign: float, way: int) -> float:
+    low, high = model.actuator_ctrlrange[number]
+    return float(high if (way == 1) == (sign > 0) else low)
+
+
+def fastest(scene: Path, name: str, way: int) -> float:
+    """The greatest speed (m/s) after a step from rest to the end of the stroke, on the ground."""
+    model, data = load(scene)
+    number, position, velocity, sign = address(model, name)
+    mujoco.mj_step(model, data, 1500)
+    data.ctrl[number] = end = end_of(model, number, sign, way)
+    top = 0.0
+    for _ in range(8000):
+        mujoco.mj_step(model, data)
+        top = max(top, (2 * way - 1) * float(data.qvel[velocity]))
+        if abs(sign * data.qpos[position] - end) < 1e-3:
+            break
+    return top
+
+
+def stalled(scene: Path, name: str, way: int) -> float:
+    """The force (N) against a wall, the target at the end of the stroke."""
+    model, data = load(scene)
+    number, _, velocity, sign = address(model, name)
+    model.dof_armature[velocity] = WALL
+    data.ctrl[number] = end_of(model, number, sign, way)
+    mujoco.mj_step(model, data)
+    return (2 * way - 1) * float(data.qfrc_actuator[velocity])
+
+
+def lag(scene: Path, name: str) -> float:
+    """Seconds by which a target is followed that moves at a quarter of the slower rated speed, after half a second."""
+    model, data = load(scene)
+    number, position, _, sign = address(model, name)
+    damper = next((n for n in range(model.nu) if model.actuator(n).name == f"{name}.damping"), None)
+    if damper is None:
+        return math.nan
+    slower = float(np.abs(model.actuator_forcerange[number]).min()) / -float(model.actuator_biasprm[damper, 2])
+    mujoco.mj_step(model, data, 1500)
+    at, speed, step = sign * float(data.qpos[position]), 0.25 * slower, model.opt.timestep
+    before = at
+    for count in range(1, 501):
+        data.ctrl[number] = at + sign * speed * count * step
+        before = sign * float(data.qpos[position])
+        mujoco.mj_step(model, data)
+    return float(abs(data.ctrl[number] - before) / speed - step)
+
+
+def margin(scene: Path) -> float:
+    """The longest stable step in units of the file's: from rest, the machine's drives shaken by a millimetre."""
+    longest = 1.0
+    for factor in np.arange(1.0, 5.01, 0.1):
+        model, data = load(scene)
+        model.opt.timestep *= factor
+        # The pins' constraints and the ground have time constants of their own: it is the drives that are asked.
+        model.eq_solref[:, 0] = np.maximum(model.eq_solref[:, 0], 2.0 * model.opt.timestep)
+        mujoco.mj_step(model, data, int(1.0 / model.opt.timestep))
+        start = data.ctrl.copy()
+        data.ctrl[:] = start + 1e-3
+        mujoco.mj_step(model, data, int(2.0 / model.opt.timestep))
+        jumps = []
+        for _ in range(50):
+            before = data.qfrc_actuator.copy()
+            mujoco.mj_step(model, data)
+            jumps.append(np.abs(data.qfrc_actuator - before).max())
+        limit = 0.05 * float(np.abs(model.actuator_forcerange[:, 1]).max())
+        if not np.isfinite(data.qpos).all() or max(jumps) > limit:
+            break
+        longest = float(factor)
+    return longest
+
+
+def creep(scene: Path, *, brakes: bool) -> float:
+    """How fast (m/s) the root moves on the slope, between two and seven seconds."""
+    model, data = load(scene)
+    model.opt.gravity[:] = 9.81 * np.array([math.sin(SLOPE), 0.0, -math.cos(SLOPE)])
+    if brakes:
+        for number in range(model.nnumeric):
+            name = model.numeric(number).name
+            if name.endswith(".brake"):
+                dof = int(model.joint(name.removesuffix(".brake")).dofadr[0])
+                model.dof_frictionloss[dof] = float(model.numeric(number).data[0])
+    places = []
+    for seconds in (2.0, 5.0):
+        mujoco.mj_step(model, data, int(seconds / model.opt.timestep))
+        places.append(data.qpos[:3].copy())
+    return float(np.linalg.norm(places[1] - places[0])) / 5.0
+
+
+if __name__ == "__main__":
+    main()
