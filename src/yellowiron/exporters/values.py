@@ -1,4 +1,4 @@
-"""Numbers and frames as MJCF writes them."""
+"""Numbers, frames and colours as the documents write them."""
 
 from __future__ import annotations
 
@@ -33,6 +33,12 @@ def minus(point: Iterable[float], origin: Iterable[float]) -> Floats:
 def text(value: float) -> str:
     """Twelve digits: a micrometre in a thousand kilometres."""
     return f"{float(value) + 0.0:.12g}"
+
+
+def srgb(value: float) -> float:
+    """IEC 61966-2-1: the display value of a linear one."""
+    value = min(1.0, max(0.0, value))
+    return 12.92 * value if value <= 0.0031308 else 1.055 * value ** (1.0 / 2.4) - 0.055
 
 
 def row(values: Iterable[float]) -> str:
