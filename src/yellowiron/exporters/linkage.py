@@ -59,7 +59,7 @@ class Edge:
 class Linkage:
     """`links` and `tree` from the root outwards (`links[0]` is the root body's); `cuts` close the loops; `given` are
     the names of the tree's joints whose coordinate is given, `actuators` what each lever moves: name → {joint: sign}.
-    `still`: bodies of floating chains, which stay with the root. `collides`: pairs of links that must not touch."""
+    `still`: bodies of floating chains, which stay with the root."""
 
     name: str
     links: tuple[Link, ...]
@@ -92,17 +92,13 @@ def linkage_of(mechanism: Mechanism) -> Linkage:
         axis = np.asarray(joint.axis, dtype=np.float64)
         axis = axis / (float(np.linalg.norm(axis)) or 1.0)
         unit = (float(axis[0]), float(axis[1]), float(axis[2]))
-        return Edge(
-            names[joint.name], joint.name, kind, *ends, joint.anchor, unit, lower, upper, joint.drive, follows
-        )
+        return Edge(names[joint.name], joint.name, kind, *ends, joint.anchor, unit, lower, upper, joint.drive, follows)
 
     waiting = [edge(j) for j in mechanism.joints if not j.cut]
     root = links[mechanism.root]
     for head in mechanism.floating:
         name = unique(plain(f"{head}_as_drawn"), taken)
-        waiting.append(
-            Edge(name, "", "fixed", root, links[head], mechanism.body(head).origin, (0.0, 0.0, 1.0))
-        )
+        waiting.append(Edge(name, "", "fixed", root, links[head], mechanism.body(head).origin, (0.0, 0.0, 1.0)))
     tree, reached = _outwards(root, waiting)
     for body in mechanism.bodies:
         if links[body.name] not in reached:
@@ -112,7 +108,9 @@ def linkage_of(mechanism: Mechanism) -> Linkage:
     cuts = tuple(edge(j) for j in mechanism.joints if j.cut and j.body0 not in loose and j.body1 not in loose)
     for cut in cuts:
         if cut.kind == "prismatic":
-            raise MechanismError("a slide is cut, and cylinders must stay in the tree", where=cut.joint, hint="Cut a pivot.")
+            raise MechanismError(
+                "a slide is cut, and cylinders must stay in the tree", where=cut.joint, hint="Cut a pivot."
+            )
     anchors = {e.child: e.anchor for e in tree}
     bodies = {links[b.name]: b for b in mechanism.bodies}
     placed = tuple(Link(n, bodies[n], anchors.get(n, bodies[n].origin)) for n in (root, *(e.child for e in tree)))
@@ -128,7 +126,7 @@ def linkage_of(mechanism: Mechanism) -> Linkage:
     }
     spins = tuple(
         (names[s.ball], (float(s.line[0]), float(s.line[1]), float(s.line[2])))
-        for s in idle_spins(replace(mechanism, floating=()) if not loose else _without(mechanism, loose))
+        for s in idle_spins(_without(mechanism, loose))
     )
     still = tuple(b.name for b in mechanism.bodies if b.name in loose)
     chosen = tuple(n for n in given if n in moving)
@@ -238,5 +236,7 @@ def joints_document(linkage: Linkage) -> dict[str, Any]:
             if e.follows is not None
         ],
         "cuts": cuts,
-        "untwisted": [{"joints": list(balls[ball]), "line": list(line)} for ball, line in linkage.spins if ball in balls],
+        "untwisted": [
+            {"joints": list(balls[ball]), "line": list(line)} for ball, line in linkage.spins if ball in balls
+        ],
     }

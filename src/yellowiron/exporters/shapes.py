@@ -69,11 +69,13 @@ class Shape:
 
 
 class Shapes:
-    """The shapes of links, their meshes written into a folder as files that are used again."""
+    """The shapes of links, their meshes written into a folder as files that are used again. `hulls`: where those that
+    collide go, if not among `assets`."""
 
-    def __init__(self, geometry: Geometry, assets: Assets) -> None:
+    def __init__(self, geometry: Geometry, assets: Assets, *, hulls: Assets | None = None) -> None:
         self._geometry = geometry
         self._assets = assets
+        self._hulls = hulls or assets
         self._pieces = ConvexPieces()
 
     def seen(self, body: str, shift: Floats) -> list[Shape]:
@@ -81,7 +83,7 @@ class Shapes:
         found: list[Shape] = []
         taken: set[str] = set()
         for visual in self._of(body).visuals:
-            for file, matrix in self._files(visual.name, visual.mesh, visual.matrix, shift):
+            for file, matrix in _files(self._assets, visual.name, visual.mesh, visual.matrix, shift):
                 found.append(Shape(unique(visual.name, taken), matrix, "mesh", (), file, visual.color))
         return found
 
@@ -95,7 +97,7 @@ class Shapes:
             if one.mesh is not None:
                 for piece in self._pieces.of(placed(one.mesh, one.matrix)[0], one.approximation):
                     at = one.matrix if _proper(one.matrix) else _moved(one.matrix)
-                    for file, matrix in self._files(f"{one.name}_hull", piece, at, shift):
+                    for file, matrix in _files(self._hulls, f"{one.name}_hull", piece, at, shift):
                         found.append(Shape(unique(name, taken), matrix, "mesh", (), file, None, friction))
                 continue
             matrix = one.matrix.copy()
@@ -114,12 +116,14 @@ class Shapes:
     def _of(self, body: str) -> BodyGeometry:
         return self._geometry.bodies.get(body, BodyGeometry())
 
-    def _files(self, name: str, mesh: Mesh, matrix: Floats, shift: Floats) -> list[tuple[str, Floats]]:
-        drawn, position, _ = placed(mesh, matrix)
-        at = np.eye(4)
-        at[:3, :3] = matrix[:3, :3] if _proper(matrix) else np.eye(3)
-        at[:3, 3] = position + shift
-        return [(self._assets.files[asset], at) for asset in self._assets.add(name, drawn)]
+
+def _files(assets: Assets, name: str, mesh: Mesh, matrix: Floats, shift: Floats) -> list[tuple[str, Floats]]:
+    """The files that hold a mesh, with its place in the link."""
+    drawn, position, _ = placed(mesh, matrix)
+    at = np.eye(4)
+    at[:3, :3] = matrix[:3, :3] if _proper(matrix) else np.eye(3)
+    at[:3, 3] = position + shift
+    return [(assets.files[asset], at) for asset in assets.add(name, drawn)]
 
 
 def _proper(matrix: Floats) -> bool:

@@ -94,7 +94,10 @@ class JointStates:
             if closed is None:
                 stride *= 0.5
                 if stride < _SHORTEST:
-                    raise LockedError(f"The linkage locks after {100.0 * done:.2f} % of the way to {dict(strokes)}")
+                    raise LockedError(
+                        f"The linkage locks after {100.0 * done:.2f} % of the way to {dict(strokes)}; the limits in "
+                        "joints.json are what it can do"
+                    )
                 continue
             before, position, done = (position, done), closed, ahead
             stride = min(2.0 * stride, longest)
@@ -109,14 +112,19 @@ class JointStates:
     def gap(self) -> float:
         """The largest distance, metres, of the two halves of a cut pin at the last positions."""
         frames, _, _ = self._frames(self._position)
-        apart = [_at(frames[c["parent"]], c["in_parent"]) - _at(frames[c["child"]], c["in_child"]) for c in self._held()]
+        apart = [
+            _at(frames[c["parent"]], c["in_parent"]) - _at(frames[c["child"]], c["in_child"]) for c in self._held()
+        ]
         return max((float(np.linalg.norm(one)) for one in apart), default=0.0)
 
     def _held(self) -> list[Any]:
         return [cut for cut in self._document["cuts"] if cut["type"] != "distance"]
 
     def _close(self, position: Floats) -> Floats | None:
-        """The position with all loops closed, by Gauss-Newton on what is not given; None where it does not converge."""
+        """The position with all loops closed, by Gauss-Newton on what is not given; None where it does not converge.
+        The array given may be written to."""
+        for led in self._document["follows"]:
+            position[self._column[led["joint"]]] = led["ratio"] * position[self._column[led["leader"]]] + led["offset"]
         previous = np.inf
         for _ in range(_ITERATIONS):
             gaps, jacobian = self._gaps(position)
@@ -195,7 +203,8 @@ class JointStates:
         whole = turns[0] @ turns[1] @ turns[2]
         before = (np.eye(3), turns[0], turns[0] @ turns[1])
         derivative = [
-            _axial(_cross(first @ axes[name]) @ whole) @ line for first, name in zip(before, link["joints"], strict=True)
+            _axial(_cross(first @ axes[name]) @ whole) @ line
+            for first, name in zip(before, link["joints"], strict=True)
         ]
         return float(_axial(whole) @ line), np.array(derivative)
 

@@ -3,7 +3,7 @@ determine (`joints.json`, `joint_states.py`).
 
     DIR/package.xml, CMakeLists.txt          the package <machine>_description
     DIR/urdf/<machine>.urdf                  links, joints, meshes as package://…, ros2_control
-    DIR/meshes/*.stl
+    DIR/meshes/*.stl, *.obj                  what is seen, what collides
     DIR/scripts/joints.json, joint_states.py strokes → positions of every joint
 """
 
@@ -42,8 +42,11 @@ def export_urdf(mechanism: Mechanism, geometry: Geometry | str | Path, folder: P
     linkage = linkage_of(mechanism)
     shapes = geometry if isinstance(geometry, Geometry) else read_geometry(geometry)
     package = package_name(linkage.name)
-    assets = Assets(folder / "meshes")
-    robot = _Robot(linkage, Shapes(shapes, assets), f"package://{package}/meshes/").element()
+    # STL takes the colour that the document says in every viewer; Drake takes hulls from OBJ alone.
+    hulls = Assets(folder / "meshes", form="obj")
+    robot = _Robot(
+        linkage, Shapes(shapes, Assets(folder / "meshes"), hulls=hulls), f"package://{package}/meshes/"
+    ).element()
     path = folder / "urdf" / f"{linkage.name}.urdf"
     for part in ("urdf", "meshes", "scripts"):
         (folder / part).mkdir(parents=True, exist_ok=True)
@@ -127,9 +130,7 @@ class _Robot:
             visual = self._shape("visual", shape)
             ET.SubElement(visual, "material", name=color)
             made.append(visual)
-        made.extend(
-            self._shape("collision", s) for s in self._shapes.touched(link.body.name, shift, capsules=False)
-        )
+        made.extend(self._shape("collision", s) for s in self._shapes.touched(link.body.name, shift, capsules=False))
         return made
 
     def _shape(self, tag: str, shape: Shape) -> ET.Element:
@@ -215,7 +216,7 @@ def _pivot_link(name: str) -> ET.Element:
     made = ET.Element("link", name=name)
     inertial = ET.SubElement(made, "inertial")
     ET.SubElement(inertial, "mass", value=text(_PIVOT_MASS))
-    round_ = {name: "0" for name in ("ixy", "ixz", "iyz")} | {n: text(_PIVOT_INERTIA) for n in ("ixx", "iyy", "izz")}
+    round_ = dict.fromkeys(("ixy", "ixz", "iyz"), "0") | {n: text(_PIVOT_INERTIA) for n in ("ixx", "iyy", "izz")}
     ET.SubElement(inertial, "inertia", round_)
     return made
 
