@@ -3,12 +3,12 @@
 from __future__ import annotations
 
 from pathlib import Path
+from typing import Any
 
 import pytest
-from export_poses import BAR, worst_of_strokes
 
-from conftest import Built
 from kit.builds import MadeOnce
+from kit.export_poses import BAR, worst_of_strokes
 from kit.machines.drawn_examples import build_example, built_example, drawn_example
 from yellowiron.exporters import Geometry, unsaid
 from yellowiron.exporters.ros.urdf import export_urdf
@@ -25,7 +25,7 @@ def held(usd: Path, folder: Path) -> None:
         assert any("loop" in words or "constraint" in words for words in unsaid(mechanism, to=to))
 
 
-def test_a_wheel_loader(built_loader: Built, tmp_path: Path) -> None:
+def test_a_wheel_loader(built_loader: Any, tmp_path: Path) -> None:
     held(built_loader.folder / "wheel_loader.usda", tmp_path)
 
 

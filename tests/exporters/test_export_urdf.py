@@ -13,8 +13,8 @@ from xml.etree import ElementTree as ET
 import numpy as np
 import pytest
 import trimesh
-from export_poses import BAR, helper, worst_of_strokes
 
+from kit.export_poses import BAR, helper, worst_of_strokes
 from kit.exported import frame, read_urdf, urdf_poses
 from kit.machines import simple_machines as simple
 from kit.machines import small_machine, spatial_machine

@@ -7,13 +7,12 @@ has the tree, the cuts and which joints are given; all others follow.
     positions = machine.positions({"boom": 0.2, "bucket": -0.1})    # every movable joint of the URDF
     # message.name, message.position = list(positions), list(positions.values())
 
-Run as a script it prints them: `python joint_states.py boom=0.2 bucket=-0.1`.
+The copy in an export is a script, too: `python joint_states.py boom=0.2 bucket=-0.1` prints them.
 """
 
 from __future__ import annotations
 
 import json
-import sys
 from collections.abc import Mapping
 from pathlib import Path
 from typing import Any
@@ -239,17 +238,3 @@ def _turn(axis: Any, angle: float) -> Floats:
 def _axial(matrix: Floats) -> Floats:
     """The vector of a matrix's skew part."""
     return 0.5 * np.array([matrix[2, 1] - matrix[1, 2], matrix[0, 2] - matrix[2, 0], matrix[1, 0] - matrix[0, 1]])
-
-
-def main() -> None:
-    """Prints the joint positions at the strokes of the command line."""
-    try:
-        strokes = {name: float(value) for name, _, value in (word.partition("=") for word in sys.argv[1:])}
-        said = JointStates(Path(__file__).with_name("joints.json")).positions(strokes)
-    except (KeyError, ValueError) as error:
-        sys.exit(str(error.args[0] if error.args else error))
-    sys.stdout.write(json.dumps(said, indent=2) + "\n")
-
-
-if __name__ == "__main__":
-    main()

@@ -54,7 +54,7 @@ def export_urdf(mechanism: Mechanism, geometry: Geometry | str | Path, folder: P
     path.write_bytes(ET.tostring(robot, encoding="utf-8", xml_declaration=True) + b"\n")
     (folder / "scripts" / "joints.json").write_text(to_json(joints_document(linkage)), encoding="utf-8")
     script = Path(__file__).with_name("joint_states.py").read_text(encoding="utf-8")
-    (folder / "scripts" / "joint_states.py").write_text(script, encoding="utf-8")
+    (folder / "scripts" / "joint_states.py").write_text(script + _MAIN, encoding="utf-8")
     (folder / "package.xml").write_text(_PACKAGE.format(package=package, machine=linkage.name), encoding="utf-8")
     (folder / "CMakeLists.txt").write_text(_CMAKE.format(package=package), encoding="utf-8")
     return path
@@ -221,6 +221,24 @@ def _pivot_link(name: str) -> ET.Element:
     return made
 
 
+_MAIN = """
+
+def main() -> None:
+    \"\"\"Prints the joint positions at the strokes of the command line.\"\"\"
+    try:
+        strokes = {name: float(value) for name, _, value in (word.partition("=") for word in sys.argv[1:])}
+        positions = JointStates(Path(__file__).with_name("joints.json")).positions(strokes)
+    except (KeyError, ValueError) as error:
+        sys.exit(str(error.args[0]))
+    print(json.dumps(positions, indent=2))
+
+
+if __name__ == "__main__":
+    import sys
+
+    main()
+"""
+"""What the script beside an export has besides the module: a command line."""
 _PACKAGE = """<?xml version="1.0"?>
 <package format="3">
   <name>{package}</name>
