@@ -103,6 +103,18 @@ def test_what_is_seen_stands_where_the_machine_file_has_it_in_its_colour(urdf: P
             assert robot.find(f"material[@name='{visual.find('material').attrib['name']}']/color") is not None
 
 
+def test_sites_and_sensors_are_frames(urdf: Path, mechanism: Mechanism) -> None:
+    joints = read_urdf(urdf)
+    drawn = urdf_poses(joints, dict.fromkeys((j.name for j in joints), 0.0))
+    standing = [one for one in (*mechanism.sites, *mechanism.sensors) if one.body]
+    assert standing
+    for one in standing:
+        name = next(j.child for j in joints if j.parent == one.body and j.child.startswith(one.name))
+        assert drawn[name][:3, 3] == pytest.approx(one.position, abs=1e-9)
+        assert drawn[name][:3, 0] == pytest.approx(one.x_axis, abs=1e-9)
+        assert drawn[name][:3, 2] == pytest.approx(one.z_axis, abs=1e-9)
+
+
 def test_limits_and_ros2_control_are_the_drives(urdf: Path, mechanism: Mechanism) -> None:
     robot = ET.parse(urdf).getroot()
     slide = mechanism.joint("slide")

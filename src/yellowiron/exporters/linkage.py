@@ -13,7 +13,9 @@ from typing import Any, Literal
 import numpy as np
 
 from yellowiron.exporters.assets import plain, unique
+from yellowiron.exporters.values import axes_of, minus
 from yellowiron.model.errors import MechanismError
+from yellowiron.model.geometry import Floats
 from yellowiron.model.mechanism import Body, Drive, Joint, Mechanism, Vector, chained, independent_joints
 from yellowiron.model.template import by_first_leader
 from yellowiron.support.spatial import idle_spins
@@ -56,6 +58,16 @@ class Edge:
 
 
 @dataclass(frozen=True, eq=False)
+class Frame:
+    """A site's or a sensor's frame on a link: `position` (3,) from the link's frame, `axes` (3, 3; columns) in it."""
+
+    name: str
+    link: str
+    position: Floats
+    axes: Floats
+
+
+@dataclass(frozen=True, eq=False)
 class Linkage:
     """`links` and `tree` from the root outwards (`links[0]` is the root body's); `cuts` close the loops; `given` are
     the names of the tree's joints whose coordinate is given, `actuators` what each lever moves: name → {joint: sign}.
@@ -70,6 +82,8 @@ class Linkage:
     still: tuple[str, ...] = ()
     spins: tuple[tuple[str, Vector], ...] = ()
     """(ball's name, line): links between two balls, which the kinematics carries without twist about that line."""
+    frames: tuple[Frame, ...] = ()
+    """Sites, then sensors that stand on a body."""
 
 
 def linkage_of(mechanism: Mechanism) -> Linkage:
@@ -130,7 +144,18 @@ def linkage_of(mechanism: Mechanism) -> Linkage:
     )
     still = tuple(b.name for b in mechanism.bodies if b.name in loose)
     chosen = tuple(n for n in given if n in moving)
-    return Linkage(plain(mechanism.name), placed, tree, cuts, chosen, actuators, still, spins)
+    origins = {link.name: link.origin for link in placed}
+    frames = tuple(
+        Frame(
+            unique(plain(one.name), taken),
+            links[one.body],
+            minus(one.position, origins[links[one.body]]),
+            axes_of(one),
+        )
+        for one in (*mechanism.sites, *mechanism.sensors)
+        if one.body in links
+    )
+    return Linkage(plain(mechanism.name), placed, tree, cuts, chosen, actuators, still, spins, frames)
 
 
 def _without(mechanism: Mechanism, loose: frozenset[str]) -> Mechanism:
@@ -169,7 +194,8 @@ def _outwards(root: str, waiting: list[Edge]) -> tuple[tuple[Edge, ...], set[str
 def with_pivots(linkage: Linkage) -> tuple[tuple[Edge, ...], dict[str, tuple[str, str, str]]]:
     """The tree with every ball as three pivots, and ball → the names of these; the links between are `NAME_pitch` and
     `NAME_roll`."""
-    taken = {link.name.lower() for link in linkage.links} | {e.name.lower() for e in (*linkage.tree, *linkage.cuts)}
+    named = (*linkage.links, *linkage.frames, *linkage.tree, *linkage.cuts)
+    taken = {one.name.lower() for one in named}
     edges: list[Edge] = []
     balls: dict[str, tuple[str, str, str]] = {}
     for one in linkage.tree:

@@ -116,6 +116,12 @@ class _Robot:
         robot.extend(links)
         robot.append(self._joint(Edge(f"{BASE}_joint", "", "fixed", BASE, root.name, root.origin, (0.0, 0.0, 1.0))))
         robot.extend(self._joint(one) for one in self._tree)
+        for frame in self._linkage.frames:
+            ET.SubElement(robot, "link", name=frame.name)
+            mount = ET.SubElement(robot, "joint", name=f"{frame.name}_mount", type="fixed")
+            mount.append(_origin(frame.position, frame.axes))
+            ET.SubElement(mount, "parent", link=frame.link)
+            ET.SubElement(mount, "child", link=frame.name)
         control = self._control()
         if control is not None:
             robot.append(control)

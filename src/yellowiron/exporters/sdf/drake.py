@@ -14,7 +14,7 @@ from yellowiron.exporters.assets import Assets
 from yellowiron.exporters.geometry import Geometry, read_geometry
 from yellowiron.exporters.linkage import Edge, Linkage, linkage_of
 from yellowiron.exporters.ros.urdf import package_name, still_words
-from yellowiron.exporters.sdf.model import add_joint, add_links, child, distance_words, write
+from yellowiron.exporters.sdf.model import add_frames, add_joint, add_links, child, distance_words, write
 from yellowiron.exporters.shapes import Shapes
 from yellowiron.exporters.values import minus, row, text
 from yellowiron.model.mechanism import Mechanism
@@ -63,6 +63,7 @@ def _document(linkage: Linkage, shapes: Shapes, meshes: str) -> ET.Element:
     top = ET.Element("sdf", {"version": "1.9", "xmlns:drake": "http://drake.mit.edu"})
     model = child(top, "model", name=linkage.name, canonical_link=linkage.links[0].name)
     add_links(model, linkage, shapes, meshes, contact=False)
+    add_frames(model, linkage)
     for one in linkage.tree:
         made = add_joint(model, one, linkage)
         if one.drive is not None and one.drive.kind == "position":

@@ -16,7 +16,7 @@ from yellowiron.exporters.assets import Assets, unique
 from yellowiron.exporters.geometry import Geometry, read_geometry
 from yellowiron.exporters.linkage import Edge, Linkage, linkage_of
 from yellowiron.exporters.ros.urdf import still_words
-from yellowiron.exporters.sdf.model import KINDS, add_joint, add_links, child, distance_words, write
+from yellowiron.exporters.sdf.model import KINDS, add_frames, add_joint, add_links, child, distance_words, write
 from yellowiron.exporters.shapes import Shapes
 from yellowiron.exporters.values import row, text
 from yellowiron.model.mechanism import Mechanism
@@ -72,6 +72,7 @@ def _document(linkage: Linkage, shapes: Shapes, welds: bool) -> ET.Element:
     model = child(top, "model", name=linkage.name, canonical_link=linkage.links[0].name)
     child(model, "self_collide", "false")
     add_links(model, linkage, shapes, "meshes/", contact=True)
+    add_frames(model, linkage)
     for one in linkage.tree:
         made = add_joint(model, one, linkage)
         axis = made.find("axis")
@@ -84,7 +85,8 @@ def _document(linkage: Linkage, shapes: Shapes, welds: bool) -> ET.Element:
             # SDFormat's schema has it before the limits.
             axis.remove(mimic)
             axis.insert(1, mimic)
-    taken = {e.name.lower() for e in (*linkage.tree, *linkage.cuts)} | {link.name.lower() for link in linkage.links}
+    named = (*linkage.links, *linkage.frames, *linkage.tree, *linkage.cuts)
+    taken = {one.name.lower() for one in named}
     for cut in linkage.cuts:
         if cut.kind in KINDS:
             if welds:

@@ -38,6 +38,13 @@ def add_links(model: ET.Element, linkage: Linkage, shapes: Shapes, meshes: str, 
                 child(ode, "mu2", text(shape.friction))
 
 
+def add_frames(model: ET.Element, linkage: Linkage) -> None:
+    """Sites and sensors as frames attached to their links."""
+    for frame in linkage.frames:
+        made = child(model, "frame", name=frame.name, attached_to=frame.link)
+        child(made, "pose", row((*frame.position, *roll_pitch_yaw(frame.axes))))
+
+
 def add_joint(model: ET.Element, one: Edge, linkage: Linkage) -> ET.Element:
     """A joint where its anchor is. Without a drive its effort is 0: nothing pushes it."""
     made = child(model, "joint", name=one.name, type=KINDS[one.kind])
