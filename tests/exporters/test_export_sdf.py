@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import json
 import math
 from pathlib import Path
 from xml.etree import ElementTree as ET
@@ -9,6 +10,7 @@ from xml.etree import ElementTree as ET
 import numpy as np
 import pytest
 
+from kit.builds import console
 from kit.exported import read_sdf
 from kit.machines import simple_machines as simple
 from kit.machines import spatial_machine
@@ -169,3 +171,21 @@ def test_drake_has_the_bodies_there_and_holds_the_loops(
         for link, pose in poses.items():
             found = plant.EvalBodyPoseInWorld(context, plant.GetBodyByName(link)).GetAsMatrix4()
             assert root @ found == pytest.approx(pose, abs=1e-6)
+
+
+def test_the_command_says_what_the_format_cannot(usd_file: Path, tmp_path: Path) -> None:
+    plain = console("export", usd_file, "--to", "sdf", "--out", tmp_path / "plain", cwd=tmp_path)
+    assert plain.returncode == 0 and "model_welds.sdf closes them" in " ".join(plain.stdout.split())
+    told = console("export", usd_file, "--to", "urdf", "--out", tmp_path / "told", "--json", cwd=tmp_path)
+    document = json.loads(told.stdout)
+    assert Path(document["machine"]).is_file()
+    assert [words for words in document["unsaid"] if words.startswith("URDF has no loops")]
+
+
+def test_sdformats_own_reader_takes_both_models(sdf: Path) -> None:
+    """libsdformat, which Drake has inside, where it is installed; Drake itself then takes no loops of joints."""
+    pydrake = pytest.importorskip("pydrake.all", reason="drake is not installed")
+    for name in ("model.sdf", "model_welds.sdf"):
+        plant = pydrake.MultibodyPlant(0.001)
+        assert len(pydrake.Parser(plant).AddModels(str(sdf.with_name(name)))) == 1
+        assert plant.HasJointNamed("slide")

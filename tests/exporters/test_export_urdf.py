@@ -161,6 +161,16 @@ def test_the_helper_runs_alone_and_says_what_is_wrong(urdf: Path, tmp_path: Path
     assert wrong.returncode == 1 and "Traceback" not in wrong.stderr
 
 
+def test_a_wheel_far_on_is_there_at_once(urdf: Path, monkeypatch: pytest.MonkeyPatch) -> None:
+    """What is on no loop is not stepped: a thousand turns are one solve."""
+    states = JointStates(urdf.parent.parent / "scripts" / "joints.json")
+    solved: list[int] = []
+    close = states._close
+    monkeypatch.setattr(states, "_close", lambda position: (solved.append(1), close(position))[1])
+    positions = states.positions({"drive": 6283.0})
+    assert len(solved) == 1 and positions["front_wheel_l_joint"] == 6283.0 and states.gap() < BAR
+
+
 def test_a_levers_sign_turns_the_stroke_over(mechanism: Mechanism, tmp_path: Path) -> None:
     boom = mechanism.actuators[0]
     flipped = dataclasses.replace(boom, joints=(dataclasses.replace(boom.joints[0], sign=-1),))

@@ -60,14 +60,17 @@ class JointStates:
         for joint in self._joints:
             own = [] if joint["type"] == "fixed" else [self._column[joint["name"]]]
             self._above[joint["child"]] = [*self._above[joint["parent"]], *own]
+        looped = set().union(*(set(self._above[c["parent"]]) ^ set(self._above[c["child"]]) for c in self._held()))
+        looped |= {self._column[f["leader"]] for f in self._document["follows"] if self._column[f["joint"]] in looped}
+        self._stepped = np.array([place in looped for place in range(len(self.names))], dtype=bool)
         self._position = np.zeros(len(self.names))
 
     def positions(self, strokes: Mapping[str, float]) -> dict[str, float]:
         """Joint → its position, metres or radians from the drawn pose, for every movable joint.
 
-        `strokes`: levers or given joints → their position, metres or radians from the drawn pose; those that are not
-        named stay as they were, at first as drawn. `KeyError` where a name is neither; `LockedError` where the loops
-        cannot close, and nothing has moved then.
+        `strokes`: levers or given joints → their position, metres or radians from the drawn pose (a name of both is the
+        lever's); those that are not named stay as they were, at first as drawn. `KeyError` where a name is neither;
+        `LockedError` where the loops cannot close, and nothing has moved then.
         """
         wanted = self._position.copy()
         for name, value in strokes.items():
@@ -80,7 +83,8 @@ class JointStates:
                 known = ", ".join((*self.actuators, *self.given))
                 raise KeyError(f"'{name}' is no lever and no given joint; there are: {known}")
         begin, position = self._position, self._position
-        way = np.where(self._loose, 0.0, wanted - begin)
+        # What is on no loop, such as a wheel, gets there at once.
+        way = np.where(self._stepped & ~self._loose, wanted - begin, 0.0)
         length = float(np.abs(way).max(initial=0.0)) / _LONGEST
         done, stride = 0.0, 1.0 / max(1.0, float(np.ceil(length)))
         longest, before = stride, (position, 0.0)
@@ -89,7 +93,7 @@ class JointStates:
             guess = position.copy()
             if done > before[1]:
                 guess += (position - before[0]) * ((ahead - done) / (done - before[1]))
-            closed = self._close(np.where(self._loose, guess, begin + ahead * way))
+            closed = self._close(np.where(self._loose, guess, wanted - (1.0 - ahead) * way))
             if closed is None:
                 stride *= 0.5
                 if stride < _SHORTEST:
