@@ -15,7 +15,7 @@ from kit.exported import read_sdf
 from kit.machines import simple_machines as simple
 from kit.machines import spatial_machine
 from yellowiron.exporters import Geometry, JointStates, export, unsaid
-from yellowiron.exporters.linkage import joints_document, linkage_of
+from yellowiron.exporters.link_table import joints_document
 from yellowiron.exporters.sdf.drake import export_drake
 from yellowiron.exporters.sdf.gazebo import export_sdf
 from yellowiron.kinematics import complete
@@ -137,7 +137,7 @@ def test_drake_has_the_bodies_there_and_holds_the_loops(
     pydrake = pytest.importorskip("pydrake.all", reason="drake is not installed")
     made = mechanism if machine == "small" else complete(spatial_machine.blade_machine(spatial_machine.blade()))
     file = drake if machine == "small" else export_drake(made, Geometry(), tmp_path)
-    document = joints_document(linkage_of(made))
+    document = joints_document(links_of(made))
     builder = pydrake.DiagramBuilder()
     plant, _ = pydrake.AddMultibodyPlantSceneGraph(builder, 0.001)
     plant.set_discrete_contact_approximation(pydrake.DiscreteContactApproximation.kSap)
@@ -156,7 +156,7 @@ def test_drake_has_the_bodies_there_and_holds_the_loops(
     simulator.AdvanceTo(0.1)
     frames = {
         link.name: plant.EvalBodyPoseInWorld(context, plant.GetBodyByName(link.name)).GetAsMatrix4()
-        for link in linkage_of(made).links
+        for link in links_of(made).links
     }
     for cut in document["cuts"]:
         ends = [frames[cut[s]] @ np.append(cut[f"in_{s}"], 1.0) for s in ("parent", "child")]

@@ -18,7 +18,7 @@ from kit.export_poses import BAR, helper, worst_of_strokes
 from kit.exported import frame, read_urdf, urdf_poses
 from kit.machines import simple_machines as simple
 from kit.machines import small_machine, spatial_machine
-from yellowiron.exporters import Geometry, JointStates, export, linkage_of, read_geometry, unsaid
+from yellowiron.exporters import Geometry, JointStates, export, read_geometry, unsaid
 from yellowiron.exporters.ros.joint_states import LockedError
 from yellowiron.exporters.ros.urdf import export_urdf, package_name
 from yellowiron.kinematics import complete
@@ -183,8 +183,8 @@ def test_a_levers_sign_turns_the_stroke_over(mechanism: Mechanism, tmp_path: Pat
 def test_names_are_free_and_the_package_is_named_as_ros_wants(mechanism: Mechanism) -> None:
     joints = (dataclasses.replace(j, name="boom") if j.name == "slide" else j for j in mechanism.joints)
     twice = dataclasses.replace(mechanism, joints=tuple(joints))
-    linkage = linkage_of(dataclasses.replace(twice, actuators=(), cylinders=(), loops=()))
-    names = [link.name for link in linkage.links] + [e.name for e in (*linkage.tree, *linkage.cuts)]
+    table = links_of(dataclasses.replace(twice, actuators=(), cylinders=(), loops=()))
+    names = [link.name for link in table.links] + [e.name for e in (*table.tree, *table.cuts)]
     assert len(set(names)) == len(names)
     assert package_name("Wheel-Loader 2") == "wheel_loader_2_description"
     assert package_name("320") == "machine_320_description"

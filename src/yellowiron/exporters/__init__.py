@@ -1,7 +1,7 @@
 """Export: a `Mechanism` and its machine file → the same machine in another simulator's files, in a folder.
 
 In the order in which they build on each other: `geometry` (a machine file's visuals and colliders), `assets` (mesh
-files), `values` (numbers as texts), `shapes` (what is seen and touched of a link), `mjcf` (its documents), `linkage`
+files), `values` (numbers as texts), `shapes` (what is seen and touched of a link), `mjcf` (its documents), `link_table`
 (links and joints, the table of the others), `ros` (URDF and its helper), `sdf` (Gazebo's and Drake's models),
 `registry` (which formats there are, ours and other packages'). The names here import what they need when used.
 """
@@ -14,7 +14,7 @@ from yellowiron.support.lazy import lazy_names
 
 if TYPE_CHECKING:
     from yellowiron.exporters.geometry import BodyGeometry, Geometry, read_geometry
-    from yellowiron.exporters.linkage import Linkage, linkage_of
+    from yellowiron.exporters.link_table import LinkTable, links_of
     from yellowiron.exporters.mjcf.document import actuator_names, export_mjcf, integrator_of
     from yellowiron.exporters.registry import EXPORTERS, Exporter, export, exporter_names, find_exporter, unsaid
     from yellowiron.exporters.ros.joint_states import JointStates
@@ -25,14 +25,14 @@ __all__ = [
     "Exporter",
     "Geometry",
     "JointStates",
-    "Linkage",
+    "LinkTable",
     "actuator_names",
     "export",
     "export_mjcf",
     "exporter_names",
     "find_exporter",
     "integrator_of",
-    "linkage_of",
+    "links_of",
     "read_geometry",
     "unsaid",
 ]
@@ -45,14 +45,14 @@ __getattr__, __dir__ = lazy_names(
         "Exporter": "registry",
         "Geometry": "geometry",
         "JointStates": "ros.joint_states",
-        "Linkage": "linkage",
+        "LinkTable": "link_table",
         "actuator_names": "mjcf.document",
         "export": "registry",
         "export_mjcf": "mjcf.document",
         "exporter_names": "registry",
         "find_exporter": "registry",
         "integrator_of": "mjcf.document",
-        "linkage_of": "linkage",
+        "links_of": "link_table",
         "read_geometry": "geometry",
         "unsaid": "registry",
     },

@@ -1,1 +1,1 @@
-"""A `Linkage` → ROS 2: `urdf` (the description package), `joint_states` (a script beside it, which stands alone)."""
+"""A `LinkTable` → ROS 2: `urdf` (the description package), `joint_states` (a script beside it, which stands alone)."""

@@ -18,7 +18,7 @@ import numpy as np
 
 from yellowiron.exporters.assets import Assets
 from yellowiron.exporters.geometry import Geometry, read_geometry
-from yellowiron.exporters.linkage import Edge, Link, Linkage, joints_document, linkage_of, with_pivots
+from yellowiron.exporters.link_table import Edge, Link, LinkTable, joints_document, links_of, with_pivots
 from yellowiron.exporters.shapes import Shape, Shapes
 from yellowiron.exporters.values import minus, roll_pitch_yaw, row, srgb, text
 from yellowiron.model.geometry import Color, Floats
@@ -39,51 +39,51 @@ def export_urdf(mechanism: Mechanism, geometry: Geometry | str | Path, folder: P
 
     Raises `MechanismError` where the joints are no tree with cuts.
     """
-    linkage = linkage_of(mechanism)
+    table = links_of(mechanism)
     shapes = geometry if isinstance(geometry, Geometry) else read_geometry(geometry)
-    package = package_name(linkage.name)
+    package = package_name(table.name)
     # STL takes the colour that the document says in every viewer; Drake takes hulls from OBJ alone.
     hulls = Assets(folder / "meshes", form="obj")
     robot = _Robot(
-        linkage, Shapes(shapes, Assets(folder / "meshes"), hulls=hulls), f"package://{package}/meshes/"
+        table, Shapes(shapes, Assets(folder / "meshes"), hulls=hulls), f"package://{package}/meshes/"
     ).element()
-    path = folder / "urdf" / f"{linkage.name}.urdf"
+    path = folder / "urdf" / f"{table.name}.urdf"
     for part in ("urdf", "meshes", "scripts"):
         (folder / part).mkdir(parents=True, exist_ok=True)
     ET.indent(robot)
     path.write_bytes(ET.tostring(robot, encoding="utf-8", xml_declaration=True) + b"\n")
-    (folder / "scripts" / "joints.json").write_text(to_json(joints_document(linkage)), encoding="utf-8")
+    (folder / "scripts" / "joints.json").write_text(to_json(joints_document(table)), encoding="utf-8")
     script = Path(__file__).with_name("joint_states.py").read_text(encoding="utf-8")
     (folder / "scripts" / "joint_states.py").write_text(script + _MAIN, encoding="utf-8")
-    (folder / "package.xml").write_text(_PACKAGE.format(package=package, machine=linkage.name), encoding="utf-8")
+    (folder / "package.xml").write_text(_PACKAGE.format(package=package, machine=table.name), encoding="utf-8")
     (folder / "CMakeLists.txt").write_text(_CMAKE.format(package=package), encoding="utf-8")
     return path
 
 
 def urdf_unsaid(mechanism: Mechanism) -> tuple[str, ...]:
     """What URDF cannot say of a machine, one sentence each."""
-    linkage = linkage_of(mechanism)
+    table = links_of(mechanism)
     said: list[str] = []
-    if linkage.cuts:
-        names = ", ".join(cut.name for cut in linkage.cuts)
+    if table.cuts:
+        names = ", ".join(cut.name for cut in table.cuts)
         said.append(f"URDF has no loops: these pins are cut, and joint_states.py closes them: {names}.")
-    balls = [e.name for e in linkage.tree if e.kind == "spherical"]
+    balls = [e.name for e in table.tree if e.kind == "spherical"]
     if balls:
         said.append(f"URDF has no ball: each is three pivots (pitch, roll, yaw), without its cone: {', '.join(balls)}.")
-    endless = [e.name for e in linkage.tree if e.kind == "prismatic" and (e.lower is None or e.upper is None)]
+    endless = [e.name for e in table.tree if e.kind == "prismatic" and (e.lower is None or e.upper is None)]
     if endless:
         said.append(f"URDF's slides need ends: {_FAR:g} m to either side for {', '.join(endless)}.")
-    said += still_words(linkage)
-    if any(e.drive is not None for e in linkage.tree):
+    said += still_words(table)
+    if any(e.drive is not None for e in table.tree):
         said.append("URDF has no gains and no friction of materials: the drives' stiffness and damping are left out.")
     return tuple(said)
 
 
-def still_words(linkage: Linkage) -> list[str]:
+def still_words(table: LinkTable) -> list[str]:
     """A sentence about chains that stay with the root, where there are any."""
-    if not linkage.still:
+    if not table.still:
         return []
-    return [f"The {len(linkage.still)} links of its tracks' rings are fixed to {linkage.links[0].name} as drawn."]
+    return [f"The {len(table.still)} links of its tracks' rings are fixed to {table.links[0].name} as drawn."]
 
 
 def package_name(machine: str) -> str:
@@ -93,22 +93,22 @@ def package_name(machine: str) -> str:
 
 
 class _Robot:
-    def __init__(self, linkage: Linkage, shapes: Shapes, meshes: str) -> None:
-        self._linkage = linkage
+    def __init__(self, table: LinkTable, shapes: Shapes, meshes: str) -> None:
+        self._table = table
         self._shapes = shapes
         self._meshes = meshes
         self._colors: dict[Color, str] = {}
-        self._tree, self._balls = with_pivots(linkage)
+        self._tree, self._balls = with_pivots(table)
         self._origins: dict[str, tuple[float, ...]] = {BASE: (0.0, 0.0, 0.0)}
-        self._origins |= {link.name: link.origin for link in linkage.links}
+        self._origins |= {link.name: link.origin for link in table.links}
         for one in self._tree:
             self._origins.setdefault(one.child, one.anchor)
 
     def element(self) -> ET.Element:
-        robot = ET.Element("robot", name=self._linkage.name)
-        root = self._linkage.links[0]
-        links = [ET.Element("link", name=BASE), *(self._link(link) for link in self._linkage.links)]
-        known = {link.name for link in self._linkage.links}
+        robot = ET.Element("robot", name=self._table.name)
+        root = self._table.links[0]
+        links = [ET.Element("link", name=BASE), *(self._link(link) for link in self._table.links)]
+        known = {link.name for link in self._table.links}
         links += [_pivot_link(e.child) for e in self._tree if e.child not in known]
         for color, name in self._colors.items():
             made = ET.SubElement(robot, "material", name=name)
@@ -116,7 +116,7 @@ class _Robot:
         robot.extend(links)
         robot.append(self._joint(Edge(f"{BASE}_joint", "", "fixed", BASE, root.name, root.origin, (0.0, 0.0, 1.0))))
         robot.extend(self._joint(one) for one in self._tree)
-        for frame in self._linkage.frames:
+        for frame in self._table.frames:
             ET.SubElement(robot, "link", name=frame.name)
             mount = ET.SubElement(robot, "joint", name=f"{frame.name}_mount", type="fixed")
             mount.append(_origin(frame.position, frame.axes))
@@ -179,10 +179,10 @@ class _Robot:
 
     def _control(self) -> ET.Element | None:
         """Command interfaces by the kind of drive; what loops determine has none and is not listed."""
-        driven = [e for e in self._tree if e.drive is not None and e.follows is None and e.name in self._linkage.given]
+        driven = [e for e in self._tree if e.drive is not None and e.follows is None and e.name in self._table.given]
         if not driven:
             return None
-        made = ET.Element("ros2_control", name=self._linkage.name, type="system")
+        made = ET.Element("ros2_control", name=self._table.name, type="system")
         hardware = ET.SubElement(made, "hardware")
         ET.SubElement(hardware, "plugin").text = "mock_components/GenericSystem"
         for one in driven:

@@ -1,2 +1,2 @@
-"""A `Linkage` → SDFormat: `model` (what both readers take alike), `gazebo` (loops as joints, controllers) and `drake`
+"""A `LinkTable` → SDFormat: `model` (what both readers take alike), `gazebo` (loops as joints, controllers) and `drake`
 (loops as constraints)."""

@@ -12,7 +12,7 @@ import numpy as np
 
 from yellowiron.exporters.assets import Assets
 from yellowiron.exporters.geometry import Geometry, read_geometry
-from yellowiron.exporters.linkage import Edge, Linkage, linkage_of
+from yellowiron.exporters.link_table import Edge, LinkTable
 from yellowiron.exporters.ros.urdf import package_name, still_words
 from yellowiron.exporters.sdf.model import add_frames, add_joint, add_links, child, distance_words, write
 from yellowiron.exporters.shapes import Shapes
@@ -29,12 +29,12 @@ def export_drake(mechanism: Mechanism, geometry: Geometry | str | Path, folder: 
 
     Raises `MechanismError` where the joints are no tree with cuts.
     """
-    linkage = linkage_of(mechanism)
+    table = links_of(mechanism)
     shapes = geometry if isinstance(geometry, Geometry) else read_geometry(geometry)
     (folder / "meshes").mkdir(parents=True, exist_ok=True)
-    package = package_name(linkage.name)
-    made = _document(linkage, Shapes(shapes, Assets(folder / "meshes", form="obj")), f"package://{package}/meshes/")
-    path = folder / f"{linkage.name}.sdf"
+    package = package_name(table.name)
+    made = _document(table, Shapes(shapes, Assets(folder / "meshes", form="obj")), f"package://{package}/meshes/")
+    path = folder / f"{table.name}.sdf"
     write(made, path)
     about = ET.Element("package", format="2")
     child(about, "name", package)
@@ -44,47 +44,47 @@ def export_drake(mechanism: Mechanism, geometry: Geometry | str | Path, folder: 
 
 def drake_unsaid(mechanism: Mechanism) -> tuple[str, ...]:
     """What Drake's SDFormat cannot say of a machine, one sentence each."""
-    linkage = linkage_of(mechanism)
+    table = links_of(mechanism)
     said = []
-    if linkage.cuts or any(e.follows is not None for e in linkage.tree):
+    if table.cuts or any(e.follows is not None for e in table.tree):
         said.append(
             "Drake holds ball constraints and mimics in a discrete plant with the SAP solver alone "
             "(discrete_contact_approximation 'sap' or 'lagged')."
         )
-    said += distance_words(linkage)
-    if any(e.kind == "spherical" for e in (*linkage.tree, *linkage.cuts)):
+    said += distance_words(table)
+    if any(e.kind == "spherical" for e in (*table.tree, *table.cuts)):
         said.append("Drake's ball has no limits: the cones of the machine's balls are left out.")
-    if any(e.drive is not None and e.drive.kind == "velocity" for e in linkage.tree):
+    if any(e.drive is not None and e.drive.kind == "velocity" for e in table.tree):
         said.append("Drake's models have no velocity drive: motors are actuators that take a torque.")
-    return (*said, *still_words(linkage))
+    return (*said, *still_words(table))
 
 
-def _document(linkage: Linkage, shapes: Shapes, meshes: str) -> ET.Element:
+def _document(table: LinkTable, shapes: Shapes, meshes: str) -> ET.Element:
     top = ET.Element("sdf", {"version": "1.9", "xmlns:drake": "http://drake.mit.edu"})
-    model = child(top, "model", name=linkage.name, canonical_link=linkage.links[0].name)
-    add_links(model, linkage, shapes, meshes, contact=False)
-    add_frames(model, linkage)
-    for one in linkage.tree:
-        made = add_joint(model, one, linkage)
+    model = child(top, "model", name=table.name, canonical_link=table.links[0].name)
+    add_links(model, table, shapes, meshes, contact=False)
+    add_frames(model, table)
+    for one in table.tree:
+        made = add_joint(model, one, table)
         if one.drive is not None and one.drive.kind == "position":
             gains = {"p": text(one.drive.stiffness), "d": text(one.drive.damping)}
             child(made, "drake:controller_gains", **gains)
         if one.follows is not None:
             leader, ratio, offset = one.follows
             child(made, "drake:mimic", joint=leader, multiplier=text(ratio), offset=text(offset))
-    for cut in linkage.cuts:
+    for cut in table.cuts:
         if cut.kind != "distance":
-            _constraints(model, cut, linkage)
+            _constraints(model, cut, table)
     # The machine does not collide with itself, as in its USD file.
     group = child(model, "drake:collision_filter_group", name="machine")
-    for link in linkage.links:
+    for link in table.links:
         child(group, "drake:member", link.name)
     child(group, "drake:ignored_collision_filter_group", "machine")
     return top
 
 
-def _constraints(model: ET.Element, cut: Edge, linkage: Linkage) -> None:
-    origins = {link.name: link.origin for link in linkage.links}
+def _constraints(model: ET.Element, cut: Edge, table: LinkTable) -> None:
+    origins = {link.name: link.origin for link in table.links}
     arms = [np.zeros(3)]
     if cut.kind == "fixed":
         axis = np.asarray(cut.axis)

@@ -14,7 +14,7 @@ from xml.etree import ElementTree as ET
 
 from yellowiron.exporters.assets import Assets, unique
 from yellowiron.exporters.geometry import Geometry, read_geometry
-from yellowiron.exporters.linkage import Edge, Linkage, linkage_of
+from yellowiron.exporters.link_table import Edge, LinkTable
 from yellowiron.exporters.ros.urdf import still_words
 from yellowiron.exporters.sdf.model import KINDS, add_frames, add_joint, add_links, child, distance_words, write
 from yellowiron.exporters.shapes import Shapes
@@ -33,48 +33,48 @@ def export_sdf(mechanism: Mechanism, geometry: Geometry | str | Path, folder: Pa
 
     Raises `MechanismError` where the joints are no tree with cuts.
     """
-    linkage = linkage_of(mechanism)
+    table = links_of(mechanism)
     shapes = geometry if isinstance(geometry, Geometry) else read_geometry(geometry)
     (folder / "meshes").mkdir(parents=True, exist_ok=True)
     for name, welds in (("model.sdf", False), ("model_welds.sdf", True)):
-        if welds and not linkage.cuts:
+        if welds and not table.cuts:
             continue
         # Twice the same files, which are the same bytes.
-        write(_document(linkage, Shapes(shapes, Assets(folder / "meshes", form="obj")), welds), folder / name)
+        write(_document(table, Shapes(shapes, Assets(folder / "meshes", form="obj")), welds), folder / name)
     config = ET.Element("model")
-    child(config, "name", linkage.name)
+    child(config, "name", table.name)
     child(config, "version", "1.0")
     child(config, "sdf", "model.sdf", version=VERSION)
-    child(config, "description", f"The {linkage.name} as yellowiron exported it.")
+    child(config, "description", f"The {table.name} as yellowiron exported it.")
     write(config, folder / "model.config")
     return folder / "model.sdf"
 
 
 def sdf_unsaid(mechanism: Mechanism) -> tuple[str, ...]:
     """What SDFormat or Gazebo cannot say of a machine, one sentence each."""
-    linkage = linkage_of(mechanism)
+    table = links_of(mechanism)
     said = []
-    if linkage.cuts:
+    if table.cuts:
         said.append(
             "Gazebo's default engine refuses the joints that close loops, which model.sdf has, and leaves them open; "
             "model_welds.sdf closes them by welds that its DetachableJoint system makes, not tried here in Gazebo."
         )
-    said += distance_words(linkage)
-    if any(e.kind == "spherical" for e in (*linkage.tree, *linkage.cuts)):
+    said += distance_words(table)
+    if any(e.kind == "spherical" for e in (*table.tree, *table.cuts)):
         said.append("SDFormat's ball has no limits: the cones of the machine's balls are left out.")
-    if any(e.follows is not None for e in linkage.tree):
+    if any(e.follows is not None for e in table.tree):
         said.append("What follows another joint is a mimic axis; engines that have none leave it loose.")
-    return (*said, *still_words(linkage))
+    return (*said, *still_words(table))
 
 
-def _document(linkage: Linkage, shapes: Shapes, welds: bool) -> ET.Element:
+def _document(table: LinkTable, shapes: Shapes, welds: bool) -> ET.Element:
     top = ET.Element("sdf", version=VERSION)
-    model = child(top, "model", name=linkage.name, canonical_link=linkage.links[0].name)
+    model = child(top, "model", name=table.name, canonical_link=table.links[0].name)
     child(model, "self_collide", "false")
-    add_links(model, linkage, shapes, "meshes/", contact=True)
-    add_frames(model, linkage)
-    for one in linkage.tree:
-        made = add_joint(model, one, linkage)
+    add_links(model, table, shapes, "meshes/", contact=True)
+    add_frames(model, table)
+    for one in table.tree:
+        made = add_joint(model, one, table)
         axis = made.find("axis")
         if one.follows is not None and axis is not None:
             leader, ratio, offset = one.follows
@@ -85,16 +85,15 @@ def _document(linkage: Linkage, shapes: Shapes, welds: bool) -> ET.Element:
             # SDFormat's schema has it before the limits.
             axis.remove(mimic)
             axis.insert(1, mimic)
-    named = (*linkage.links, *linkage.frames, *linkage.tree, *linkage.cuts)
-    taken = {one.name.lower() for one in named}
-    for cut in linkage.cuts:
+    taken = names_of(table)
+    for cut in table.cuts:
         if cut.kind in KINDS:
             if welds:
                 _weld(model, cut, taken)
             else:
-                add_joint(model, cut, linkage)
-    for one in linkage.tree:
-        if one.name in linkage.given and one.drive is not None:
+                add_joint(model, cut, table)
+    for one in table.tree:
+        if one.name in table.given and one.drive is not None:
             _controller(model, one)
     state = child(model, "plugin", filename="gz-sim-joint-state-publisher-system")
     state.set("name", "gz::sim::systems::JointStatePublisher")

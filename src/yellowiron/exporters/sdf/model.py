@@ -8,7 +8,7 @@ from xml.etree import ElementTree as ET
 
 import numpy as np
 
-from yellowiron.exporters.linkage import Edge, Link, Linkage
+from yellowiron.exporters.link_table import Edge, Link, LinkTable
 from yellowiron.exporters.shapes import Shape, Shapes
 from yellowiron.exporters.values import minus, roll_pitch_yaw, row, srgb, text
 from yellowiron.model.geometry import Floats
@@ -17,9 +17,9 @@ KINDS = {"fixed": "fixed", "revolute": "revolute", "prismatic": "prismatic", "sp
 """Our joint types in SDFormat; a distance joint has none."""
 
 
-def add_links(model: ET.Element, linkage: Linkage, shapes: Shapes, meshes: str, *, contact: bool) -> None:
+def add_links(model: ET.Element, table: LinkTable, shapes: Shapes, meshes: str, *, contact: bool) -> None:
     """Every body as a link; meshes are at `meshes` + file name. `contact`: with Gazebo's friction of each shape."""
-    for link in linkage.links:
+    for link in table.links:
         made = child(model, "link", name=link.name)
         child(made, "pose", row((*link.origin, 0.0, 0.0, 0.0)))
         _inertial(made, link)
@@ -38,17 +38,17 @@ def add_links(model: ET.Element, linkage: Linkage, shapes: Shapes, meshes: str, 
                 child(ode, "mu2", text(shape.friction))
 
 
-def add_frames(model: ET.Element, linkage: Linkage) -> None:
+def add_frames(model: ET.Element, table: LinkTable) -> None:
     """Sites and sensors as frames attached to their links."""
-    for frame in linkage.frames:
+    for frame in table.frames:
         made = child(model, "frame", name=frame.name, attached_to=frame.link)
         child(made, "pose", row((*frame.position, *roll_pitch_yaw(frame.axes))))
 
 
-def add_joint(model: ET.Element, one: Edge, linkage: Linkage) -> ET.Element:
+def add_joint(model: ET.Element, one: Edge, table: LinkTable) -> ET.Element:
     """A joint where its anchor is. Without a drive its effort is 0: nothing pushes it."""
     made = child(model, "joint", name=one.name, type=KINDS[one.kind])
-    origin = next(link.origin for link in linkage.links if link.name == one.child)
+    origin = next(link.origin for link in table.links if link.name == one.child)
     child(made, "pose", row((*minus(one.anchor, origin), 0.0, 0.0, 0.0)))
     child(made, "parent", one.parent)
     child(made, "child", one.child)
@@ -83,9 +83,9 @@ def write(top: ET.Element, path: Path) -> None:
     path.write_bytes(ET.tostring(top, encoding="utf-8", xml_declaration=True) + b"\n")
 
 
-def distance_words(linkage: Linkage) -> list[str]:
+def distance_words(table: LinkTable) -> list[str]:
     """A sentence about distance joints, where there are any."""
-    names = [cut.name for cut in linkage.cuts if cut.kind == "distance"]
+    names = [cut.name for cut in table.cuts if cut.kind == "distance"]
     return [f"SDFormat has no distance joint: left out: {', '.join(names)}."] if names else []
 
 

@@ -16,7 +16,8 @@ from yellowiron.exporters.assets import plain, unique
 from yellowiron.exporters.values import axes_of, minus
 from yellowiron.model.errors import MechanismError
 from yellowiron.model.geometry import Floats
-from yellowiron.model.mechanism import Body, Drive, Joint, Mechanism, Vector, chained, independent_joints
+from yellowiron.model.mechanism import Body, Drive, Joint, Mechanism, Site, Vector, chained, independent_joints
+from yellowiron.model.sensor import Sensor
 from yellowiron.model.template import by_first_leader
 from yellowiron.support.spatial import idle_spins
 
@@ -68,7 +69,7 @@ class Frame:
 
 
 @dataclass(frozen=True, eq=False)
-class Linkage:
+class LinkTable:
     """`links` and `tree` from the root outwards (`links[0]` is the root body's); `cuts` close the loops; `given` are
     the names of the tree's joints whose coordinate is given, `actuators` what each lever moves: name → {joint: sign}.
     `still`: bodies of floating chains, which stay with the root."""
@@ -86,7 +87,7 @@ class Linkage:
     """Sites, then sensors that stand on a body."""
 
 
-def linkage_of(mechanism: Mechanism) -> Linkage:
+def links_of(mechanism: Mechanism) -> LinkTable:
     """The table of a mechanism. `MechanismError` where the joints are no tree with cuts, or a slide is cut."""
     loose = chained(mechanism)
     taken: set[str] = {"base_link", "world"}
@@ -145,17 +146,13 @@ def linkage_of(mechanism: Mechanism) -> Linkage:
     still = tuple(b.name for b in mechanism.bodies if b.name in loose)
     chosen = tuple(n for n in given if n in moving)
     origins = {link.name: link.origin for link in placed}
+    standing: list[Site | Sensor] = [*mechanism.sites, *mechanism.sensors]
     frames = tuple(
-        Frame(
-            unique(plain(one.name), taken),
-            links[one.body],
-            minus(one.position, origins[links[one.body]]),
-            axes_of(one),
-        )
-        for one in (*mechanism.sites, *mechanism.sensors)
-        if one.body in links
+        Frame(unique(plain(one.name), taken), link, minus(one.position, origins[link]), axes_of(one))
+        for one in standing
+        if (link := links.get(one.body)) is not None
     )
-    return Linkage(plain(mechanism.name), placed, tree, cuts, chosen, actuators, still, spins, frames)
+    return LinkTable(plain(mechanism.name), placed, tree, cuts, chosen, actuators, still, spins, frames)
 
 
 def _without(mechanism: Mechanism, loose: frozenset[str]) -> Mechanism:
@@ -191,14 +188,19 @@ def _outwards(root: str, waiting: list[Edge]) -> tuple[tuple[Edge, ...], set[str
     return tuple(found), reached
 
 
-def with_pivots(linkage: Linkage) -> tuple[tuple[Edge, ...], dict[str, tuple[str, str, str]]]:
+def names_of(table: LinkTable) -> set[str]:
+    """The names of links, frames and joints in small letters, for `unique`."""
+    names = [*(n.name for n in table.links), *(n.name for n in table.frames), *(n.name for n in table.tree)]
+    return {name.lower() for name in (*names, *(cut.name for cut in table.cuts))}
+
+
+def with_pivots(table: LinkTable) -> tuple[tuple[Edge, ...], dict[str, tuple[str, str, str]]]:
     """The tree with every ball as three pivots, and ball → the names of these; the links between are `NAME_pitch` and
     `NAME_roll`."""
-    named = (*linkage.links, *linkage.frames, *linkage.tree, *linkage.cuts)
-    taken = {one.name.lower() for one in named}
+    taken = names_of(table)
     edges: list[Edge] = []
     balls: dict[str, tuple[str, str, str]] = {}
-    for one in linkage.tree:
+    for one in table.tree:
         if one.kind != "spherical":
             edges.append(one)
             continue
@@ -211,10 +213,10 @@ def with_pivots(linkage: Linkage) -> tuple[tuple[Edge, ...], dict[str, tuple[str
     return tuple(edges), balls
 
 
-def joints_document(linkage: Linkage) -> dict[str, Any]:
+def joints_document(table: LinkTable) -> dict[str, Any]:
     """What `joint_states.py` reads: the tree of pivots and slides, the cuts, and which coordinates are given."""
-    tree, balls = with_pivots(linkage)
-    origins = {link.name: link.origin for link in linkage.links}
+    tree, balls = with_pivots(table)
+    origins = {link.name: link.origin for link in table.links}
     for one in tree:
         origins.setdefault(one.child, one.anchor)
 
@@ -246,15 +248,15 @@ def joints_document(linkage: Linkage) -> dict[str, Any]:
             "in_child": local(e.anchor, e.child),
             "axis": list(e.axis),
         }
-        for e in linkage.cuts
+        for e in table.cuts
     ]
     return {
         "format": 1,
-        "machine": linkage.name,
-        "root": linkage.links[0].name,
-        "origin": [float(v) for v in linkage.links[0].origin],
-        "given": list(linkage.given),
-        "actuators": {name: dict(moved) for name, moved in linkage.actuators.items()},
+        "machine": table.name,
+        "root": table.links[0].name,
+        "origin": [float(v) for v in table.links[0].origin],
+        "given": list(table.given),
+        "actuators": {name: dict(moved) for name, moved in table.actuators.items()},
         "joints": joints,
         "follows": [
             {"joint": e.name, "leader": e.follows[0], "ratio": e.follows[1], "offset": e.follows[2]}
@@ -262,7 +264,5 @@ def joints_document(linkage: Linkage) -> dict[str, Any]:
             if e.follows is not None
         ],
         "cuts": cuts,
-        "untwisted": [
-            {"joints": list(balls[ball]), "line": list(line)} for ball, line in linkage.spins if ball in balls
-        ],
+        "untwisted": [{"joints": list(balls[ball]), "line": list(line)} for ball, line in table.spins if ball in balls],
     }
