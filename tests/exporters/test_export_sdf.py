@@ -15,7 +15,7 @@ from kit.exported import read_sdf
 from kit.machines import simple_machines as simple
 from kit.machines import spatial_machine
 from yellowiron.exporters import Geometry, JointStates, export, unsaid
-from yellowiron.exporters.link_table import joints_document
+from yellowiron.exporters.link_table import joints_document, links_of
 from yellowiron.exporters.sdf.drake import export_drake
 from yellowiron.exporters.sdf.gazebo import export_sdf
 from yellowiron.kinematics import complete

@@ -18,7 +18,7 @@ from kit.export_poses import BAR, helper, worst_of_strokes
 from kit.exported import frame, read_urdf, urdf_poses
 from kit.machines import simple_machines as simple
 from kit.machines import small_machine, spatial_machine
-from yellowiron.exporters import Geometry, JointStates, export, read_geometry, unsaid
+from yellowiron.exporters import Geometry, JointStates, export, links_of, read_geometry, unsaid
 from yellowiron.exporters.ros.joint_states import LockedError
 from yellowiron.exporters.ros.urdf import export_urdf, package_name
 from yellowiron.kinematics import complete

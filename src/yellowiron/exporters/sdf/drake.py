@@ -12,7 +12,7 @@ import numpy as np
 
 from yellowiron.exporters.assets import Assets
 from yellowiron.exporters.geometry import Geometry, read_geometry
-from yellowiron.exporters.link_table import Edge, LinkTable
+from yellowiron.exporters.link_table import Edge, LinkTable, links_of
 from yellowiron.exporters.ros.urdf import package_name, still_words
 from yellowiron.exporters.sdf.model import add_frames, add_joint, add_links, child, distance_words, write
 from yellowiron.exporters.shapes import Shapes

@@ -14,7 +14,7 @@ from xml.etree import ElementTree as ET
 
 from yellowiron.exporters.assets import Assets, unique
 from yellowiron.exporters.geometry import Geometry, read_geometry
-from yellowiron.exporters.link_table import Edge, LinkTable
+from yellowiron.exporters.link_table import Edge, LinkTable, links_of, names_of
 from yellowiron.exporters.ros.urdf import still_words
 from yellowiron.exporters.sdf.model import KINDS, add_frames, add_joint, add_links, child, distance_words, write
 from yellowiron.exporters.shapes import Shapes
