@@ -49,7 +49,7 @@ def drake_unsaid(mechanism: Mechanism) -> tuple[str, ...]:
     if table.cuts or any(e.follows is not None for e in table.tree):
         said.append(
             "Drake holds ball constraints and mimics in a discrete plant with the SAP solver alone "
-            "(discrete_contact_approximation 'sap' or 'lagged')."
+            "(discrete_contact_approximation 'sap')."
         )
     said += distance_words(table)
     if any(e.kind == "spherical" for e in (*table.tree, *table.cuts)):

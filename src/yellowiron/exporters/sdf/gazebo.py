@@ -36,11 +36,11 @@ def export_sdf(mechanism: Mechanism, geometry: Geometry | str | Path, folder: Pa
     table = links_of(mechanism)
     shapes = geometry if isinstance(geometry, Geometry) else read_geometry(geometry)
     (folder / "meshes").mkdir(parents=True, exist_ok=True)
+    drawn = Shapes(shapes, Assets(folder / "meshes", form="obj"))
     for name, welds in (("model.sdf", False), ("model_welds.sdf", True)):
         if welds and not table.cuts:
             continue
-        # Twice the same files, which are the same bytes.
-        write(_document(table, Shapes(shapes, Assets(folder / "meshes", form="obj")), welds), folder / name)
+        write(_document(table, drawn, welds), folder / name)
     config = ET.Element("model")
     child(config, "name", table.name)
     child(config, "version", "1.0")
