@@ -21,8 +21,8 @@ from kit.machines.spatial_machine import (
     strokes,
 )
 from yellowiron.kinematics import ClosedChain, complete
-from yellowiron.kinematics.solver.idle_spins import idle_spins
 from yellowiron.model.mechanism import Loop, Mechanism
+from yellowiron.support.spatial import idle_spins
 
 BAR = 1e-9
 DRIVEN = {"lift_l": 0.25, "tilt": 0.09, "angle_l": 0.3}

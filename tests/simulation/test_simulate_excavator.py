@@ -11,6 +11,9 @@ import numpy as np
 import pytest
 
 from kit.builds import MadeOnce, reading_once, without_pages
+from kit.export_poses import BAR, worst_of_strokes
+from yellowiron.exporters import Geometry
+from yellowiron.exporters.ros.urdf import export_urdf
 from yellowiron.simulation import drive, rated_payload, run_tests, simulate
 from yellowiron.simulation.driving.result import driving_findings
 from yellowiron.simulation.engine import Base, Setup, poses, tell
@@ -142,3 +145,12 @@ def test_physx_drives_on_shoes_at_the_speed_told(built: Callable[[str], Path]) -
     assert result.forward == pytest.approx(2.0, rel=0.05)
     assert result.backward == pytest.approx(2.0, rel=0.05)
     assert result.swing == pytest.approx(math.radians(90.0), abs=math.radians(1.0))
+
+
+@pytest.mark.parametrize("tracks", ["belt", "shoes"])
+def test_exported_it_is_where_the_kinematics_has_it_over_its_full_strokes(
+    built: Callable[[str], Path], tmp_path: Path, tracks: str
+) -> None:
+    mechanism = read_mechanism(built(tracks))
+    worst, gap, count = worst_of_strokes(export_urdf(mechanism, Geometry(), tmp_path), mechanism)
+    assert count >= 20 and worst < BAR and gap < BAR

@@ -99,18 +99,20 @@ def simulate(
 @command(app)
 def export(
     machine: Annotated[Path, typer.Argument(metavar="FILE.usd", help="A machine that build wrote.")],
-    to: Annotated[str, typer.Option("--to", help="mjcf.")],
+    to: Annotated[str, typer.Option("--to", help="mjcf, urdf, sdf or drake.")],
     out: Annotated[Path, typer.Option("--out", help="The folder to write to.")],
 ) -> None:
     """Write the same machine for another simulator."""
-    from yellowiron.exporters import find_exporter
+    from yellowiron.exporters import find_exporter, unsaid
+    from yellowiron.usd import read_mechanism
 
     with progress_shown() as progress:
         written = yellowiron.export(machine, out, to=to, progress=progress)
     scene = find_exporter(to).scene
     files = {"machine": str(written), **({"scene": str(out / scene)} if scene else {})}
     said = f"{written}; {scene} beside it is the machine on the ground" if scene else str(written)
-    answer(files, Text(said))
+    short = unsaid(read_mechanism(machine), to=to)
+    answer({**files, "unsaid": list(short)}, Text("\n".join((said, *short))))
 
 
 @command(app)

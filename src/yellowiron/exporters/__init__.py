@@ -1,8 +1,9 @@
 """Export: a `Mechanism` and its machine file → the same machine in another simulator's files, in a folder.
 
 In the order in which they build on each other: `geometry` (a machine file's visuals and colliders), `assets` (mesh
-files), `mjcf` (its documents), `registry` (which formats there are, ours and other packages'). The names here import
-what they need when used.
+files), `values` (numbers as texts), `shapes` (what is seen and touched of a link), `mjcf` (its documents), `link_table`
+(links and joints, the table of the others), `ros` (URDF and its helper), `sdf` (Gazebo's and Drake's models),
+`registry` (which formats there are, ours and other packages'). The names here import what they need when used.
 """
 
 from __future__ import annotations
@@ -13,22 +14,28 @@ from yellowiron.support.lazy import lazy_names
 
 if TYPE_CHECKING:
     from yellowiron.exporters.geometry import BodyGeometry, Geometry, read_geometry
+    from yellowiron.exporters.link_table import LinkTable, links_of
     from yellowiron.exporters.mjcf.actuators import actuator_names
     from yellowiron.exporters.mjcf.document import export_mjcf, integrator_of
-    from yellowiron.exporters.registry import EXPORTERS, Exporter, export, exporter_names, find_exporter
+    from yellowiron.exporters.registry import EXPORTERS, Exporter, export, exporter_names, find_exporter, unsaid
+    from yellowiron.exporters.ros.joint_states import JointStates
 
 __all__ = [
     "EXPORTERS",
     "BodyGeometry",
     "Exporter",
     "Geometry",
+    "JointStates",
+    "LinkTable",
     "actuator_names",
     "export",
     "export_mjcf",
     "exporter_names",
     "find_exporter",
     "integrator_of",
+    "links_of",
     "read_geometry",
+    "unsaid",
 ]
 
 __getattr__, __dir__ = lazy_names(
@@ -38,12 +45,16 @@ __getattr__, __dir__ = lazy_names(
         "BodyGeometry": "geometry",
         "Exporter": "registry",
         "Geometry": "geometry",
+        "JointStates": "ros.joint_states",
+        "LinkTable": "link_table",
         "actuator_names": "mjcf.actuators",
         "export": "registry",
         "export_mjcf": "mjcf.document",
         "exporter_names": "registry",
         "find_exporter": "registry",
         "integrator_of": "mjcf.document",
+        "links_of": "link_table",
         "read_geometry": "geometry",
+        "unsaid": "registry",
     },
 )

@@ -10,10 +10,11 @@ from __future__ import annotations
 
 import contextlib
 import importlib
-from collections.abc import Mapping
+from collections.abc import Callable, Mapping
 from dataclasses import dataclass
 from pathlib import Path
 from types import MappingProxyType
+from typing import Any
 
 from yellowiron.model.errors import YellowironError
 from yellowiron.model.mechanism import Mechanism
@@ -27,15 +28,34 @@ GROUP = "yellowiron.exporters"
 class Exporter:
     """A format that there is. `title`: what it writes, as a person calls it. `function`: "module:function", which takes
     the mechanism, the machine's USD file and a folder, writes into the folder and returns the path of the machine's
-    file there. `scene`: the file beside it that has the machine on the ground, "" where there is none."""
+    file there. `scene`: the file beside it that has the machine on the ground, "" where there is none. `unsaid`:
+    "module:function", which takes the mechanism and returns sentences: what the format cannot say of it."""
 
     title: str
     function: str
     scene: str = ""
+    unsaid: str = ""
 
 
 EXPORTERS: Mapping[str, Exporter] = MappingProxyType(
-    {"mjcf": Exporter("MJCF", "yellowiron.exporters.mjcf.document:export_mjcf", scene="scene.xml")}
+    {
+        "mjcf": Exporter("MJCF", "yellowiron.exporters.mjcf.document:export_mjcf", scene="scene.xml"),
+        "urdf": Exporter(
+            "URDF for ROS 2",
+            "yellowiron.exporters.ros.urdf:export_urdf",
+            unsaid="yellowiron.exporters.ros.urdf:urdf_unsaid",
+        ),
+        "sdf": Exporter(
+            "SDFormat for Gazebo",
+            "yellowiron.exporters.sdf.gazebo:export_sdf",
+            unsaid="yellowiron.exporters.sdf.gazebo:sdf_unsaid",
+        ),
+        "drake": Exporter(
+            "SDFormat for Drake",
+            "yellowiron.exporters.sdf.drake:export_drake",
+            unsaid="yellowiron.exporters.sdf.drake:drake_unsaid",
+        ),
+    }
 )
 
 
@@ -63,5 +83,21 @@ def export(mechanism: Mechanism, usd_file: str | Path, folder: Path, *, to: str)
     found = find_exporter(to)
     theirs = to not in EXPORTERS
     with in_a_sentence(f"The exporter '{to}' failed", found.function) if theirs else contextlib.nullcontext():
-        module, _, function = found.function.partition(":")
-        return Path(getattr(importlib.import_module(module), function)(mechanism, usd_file, folder))
+        return Path(_function(found.function)(mechanism, usd_file, folder))
+
+
+def unsaid(mechanism: Mechanism, *, to: str) -> tuple[str, ...]:
+    """What the format `to` cannot say of a machine, or says in another way, one sentence each; none where its exporter
+    tells nothing. Errors as in `export`."""
+    found = find_exporter(to)
+    if not found.unsaid:
+        return ()
+    theirs = to not in EXPORTERS
+    with in_a_sentence(f"The exporter '{to}' failed", found.unsaid) if theirs else contextlib.nullcontext():
+        return tuple(map(str, _function(found.unsaid)(mechanism)))
+
+
+def _function(address: str) -> Callable[..., Any]:
+    module, _, name = address.partition(":")
+    function: Callable[..., Any] = getattr(importlib.import_module(module), name)
+    return function

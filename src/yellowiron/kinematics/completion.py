@@ -10,7 +10,7 @@ from yellowiron.kinematics.brakes import set_brakes
 from yellowiron.kinematics.gains import set_gains
 from yellowiron.kinematics.solver.branches import branch_pivots, branch_sines
 from yellowiron.kinematics.solver.chain import ClosedChain, Component
-from yellowiron.kinematics.solver.independence import independent_joints, suspects
+from yellowiron.kinematics.solver.independence import suspects
 from yellowiron.kinematics.solver.pose_grid import PoseGrid, explore, joint_values
 from yellowiron.kinematics.spatial_hints import locked_hint
 from yellowiron.kinematics.strength import strong_enough
@@ -18,7 +18,7 @@ from yellowiron.kinematics.tolerances import PINS_APART
 from yellowiron.kinematics.twins import end_with_twins, twins_out_of_stroke
 from yellowiron.model.finding import Finding
 from yellowiron.model.geometry import Floats
-from yellowiron.model.mechanism import Joint, Mechanism, Mobility
+from yellowiron.model.mechanism import Joint, Mechanism, Mobility, independent_joints
 
 ANGLE_MARGIN = math.radians(0.5)
 """Radians added to a pivot's range from the loop, so that its limit never carries load."""

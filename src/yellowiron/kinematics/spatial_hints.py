@@ -4,8 +4,7 @@ from __future__ import annotations
 
 import numpy as np
 
-from yellowiron.kinematics.solver.independence import independent_joints
-from yellowiron.model.mechanism import Joint, Mechanism
+from yellowiron.model.mechanism import Joint, Mechanism, independent_joints
 from yellowiron.support.graphs import blocks
 from yellowiron.support.spatial import SpatialJoint, freedom, unlocking
 from yellowiron.support.text import with_article

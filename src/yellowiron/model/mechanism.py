@@ -295,6 +295,25 @@ def rolling(mechanism: Mechanism) -> frozenset[str]:
     return frozenset(j.body1 for j in pivots if j.name not in looped) - loose
 
 
+def independent_joints(mechanism: Mechanism) -> tuple[str, ...]:
+    """Tree joints with a coordinate of their own: the driven slide of each cylinder actuator, every motor joint, every
+    driven joint besides, and the joints declared free; none that follows another. In the mechanism's order."""
+    passive = {cylinder.slide for cylinder in mechanism.cylinders if cylinder.passive}
+    actuated = {
+        entry.joint
+        for actuator in mechanism.actuators
+        for entry in (actuator.joints[:1] if actuator.kind == "cylinder" else actuator.joints)
+    }
+    return tuple(
+        joint.name
+        for joint in mechanism.joints
+        if not joint.cut
+        and joint.follows is None
+        and joint.name not in passive
+        and (joint.name in actuated or joint.free or joint.drive is not None)
+    )
+
+
 @dataclass(frozen=True)
 class Measurement:
     """A specification measured on the mechanism, SI. `role`: `checked` (published), `calibrated` (used to place a

@@ -13,6 +13,7 @@ from dataclasses import dataclass, replace
 import numpy as np
 
 from yellowiron.model.geometry import Floats
+from yellowiron.model.mechanism import Mechanism
 from yellowiron.support.graphs import components
 
 FREEDOMS: Mapping[str, int] = {"fixed": 0, "distance": 5, "spherical": 3, "revolute": 1, "prismatic": 1}
@@ -21,6 +22,8 @@ _FREER: Mapping[str, str] = {"revolute": "spherical", "spherical": "distance"}
 """What a joint that holds too much could be instead."""
 _MOST = 24
 """Joints of which pairs are still tried."""
+_SHORT = 1e-6
+"""Metres between two balls that give no line."""
 _RANK = 1e-7
 """Singular values below this share of the greatest are 0."""
 
@@ -175,3 +178,34 @@ def _normals(axis: Floats) -> Floats:
     one = np.cross(axis, helper)
     one /= np.linalg.norm(one)
     return np.array([one, np.cross(axis, one) / np.linalg.norm(axis)])
+
+
+@dataclass(frozen=True, eq=False)
+class IdleSpin:
+    """A link that can spin: its `bodies`, the `ball` of the tree that leads to it, and its `line`, a unit vector in the
+    drawn pose."""
+
+    bodies: tuple[str, ...]
+    ball: str
+    line: Floats
+
+
+def idle_spins(mechanism: Mechanism) -> tuple[IdleSpin, ...]:
+    """The idle spins of a mechanism, in the order of its bodies. The kinematics carries
+    such links without twist: each goes from its drawn direction to its present one by the shortest turn."""
+    joints = {joint.name: joint for joint in mechanism.joints}
+    if not any(joint.type == "spherical" for joint in mechanism.joints):
+        return ()
+    welds = [(j.body0, j.body1) for j in mechanism.joints if j.type == "fixed"]
+    welded = components([body.name for body in mechanism.bodies], welds)
+    one = {body: group[0] for group in welded for body in group}
+    ends = {j.name: (one[j.body0], one[j.body1]) for j in mechanism.joints if one[j.body0] != one[j.body1]}
+    found = []
+    for link in idle_links(one[mechanism.root], ends, {name: joints[name].type for name in ends}):
+        line = np.subtract(joints[link.balls[1]].anchor, joints[link.balls[0]].anchor)
+        length = float(np.linalg.norm(line))
+        inside = tuple(body for group in welded if group[0] in link.bodies for body in group)
+        leading = next((n for n in link.balls if not joints[n].cut and joints[n].body1 in inside), None)
+        if leading is not None and length > _SHORT:
+            found.append(IdleSpin(inside, leading, line / length))
+    return tuple(found)

@@ -6,7 +6,7 @@ import math
 from collections.abc import Iterator
 from xml.etree import ElementTree as ET
 
-from yellowiron.exporters.mjcf.values import row, text
+from yellowiron.exporters.values import row, text
 from yellowiron.model.mechanism import Actuator, ActuatorJoint, Drive, Joint, Mechanism
 
 HARD_SOLREF = (0.002, 1.0)

@@ -11,11 +11,11 @@ import numpy as np
 from yellowiron.exporters.assets import Assets, plain, unique
 from yellowiron.exporters.geometry import BodyGeometry, Collider, Geometry, read_geometry
 from yellowiron.exporters.mjcf import actuators, sensors
-from yellowiron.exporters.mjcf.values import axes_of, minus, quaternion, row, text
+from yellowiron.exporters.shapes import ConvexPieces, placed
+from yellowiron.exporters.values import axes_of, minus, quaternion, row, srgb, text
 from yellowiron.model.errors import MechanismError
-from yellowiron.model.geometry import Color, Floats, Mesh
+from yellowiron.model.geometry import Color, Floats
 from yellowiron.model.mechanism import Body, Joint, Mechanism, chained, rolling
-from yellowiron.support.convex import convex_pieces, hull
 
 TIMESTEP = 0.001
 """Seconds. Pins of a loaded wheel loader stay within 0.02 mm at this step, 0.3 mm at 4 ms and 1.8 mm at 10 ms."""
@@ -82,7 +82,7 @@ class _Document:
         self._timestep = timestep
         self._colors: dict[Color, str] = {}
         self._geoms: set[str] = set()
-        self._pieces: dict[tuple[bytes, bytes, str], tuple[Mesh, ...]] = {}
+        self._pieces = ConvexPieces()
         self._order: list[Joint] = []
         self._drawn: list[float] = []
         self._chained = chained(mechanism)
@@ -136,7 +136,7 @@ class _Document:
     def _asset(self) -> ET.Element:
         asset = ET.Element("asset")
         for color, name in self._colors.items():
-            ET.SubElement(asset, "material", name=name, rgba=row((*map(_srgb, color), 1.0)))
+            ET.SubElement(asset, "material", name=name, rgba=row((*map(srgb, color), 1.0)))
         for name, file in self._assets.files.items():
             ET.SubElement(asset, "mesh", {"class": "machine", "name": name, "file": file})
         return asset
@@ -204,7 +204,7 @@ class _Document:
 
     def _geometry_of(self, element: ET.Element, body: str, shapes: BodyGeometry) -> None:
         for visual in shapes.visuals:
-            mesh, position, rotation = _placed(visual.mesh, visual.matrix)
+            mesh, position, rotation = placed(visual.mesh, visual.matrix)
             material = self._color(visual.color)
             for asset in self._assets.add(visual.name, mesh):
                 self._geom(
@@ -232,26 +232,10 @@ class _Document:
             position = collider.matrix[:3, 3]
             self._geom(element, "collision", name, position, rotation, type=collider.kind, size=row(size), **friction)
             return
-        mesh, position, rotation = _placed(collider.mesh, collider.matrix)
-        for piece in self._convex(mesh, collider.approximation):
+        mesh, position, rotation = placed(collider.mesh, collider.matrix)
+        for piece in self._pieces.of(mesh, collider.approximation):
             for asset in self._assets.add(f"{collider.name}.hull", piece):
                 self._geom(element, "collision", name, position, rotation, type="mesh", mesh=asset, **friction)
-
-    def _convex(self, mesh: Mesh, token: str) -> tuple[Mesh, ...]:
-        """Convex meshes for a collider's approximation; whatever may be hollow is cut into pieces."""
-        key = (mesh.points.tobytes(), mesh.triangles.tobytes(), token)
-        if key not in self._pieces:
-            if token == "boundingCube":
-                low, high = mesh.points.min(axis=0), mesh.points.max(axis=0)
-                corners = np.array([[(low, high)[bit >> k & 1][k] for k in range(3)] for bit in range(8)])
-                self._pieces[key] = (hull(corners),)
-            elif token == "boundingSphere":
-                self._pieces[key] = (_ball(mesh.points),)
-            elif token == "convexHull":
-                self._pieces[key] = (hull(mesh.points),)
-            else:
-                self._pieces[key] = convex_pieces(mesh)
-        return self._pieces[key]
 
     def _geom(
         self, element: ET.Element, group: str, name: str, position: Floats, rotation: Floats, **more: str
@@ -335,30 +319,6 @@ def _scene(mechanism: Mechanism, machine_file: str) -> ET.Element:
     ground = {"name": "ground", "type": "plane", "size": "0 0 1", "material": "soil"}
     ET.SubElement(world, "geom", {**ground, "friction": text(GROUND_FRICTION)})
     return top
-
-
-def _placed(mesh: Mesh, matrix: Floats) -> tuple[Mesh, Floats, Floats]:
-    """A mesh with its position and rotation (w, x, y, z). What no rotation can do, a scale or a mirror image, is done
-    to its points."""
-    linear = matrix[:3, :3]
-    if np.abs(linear.T @ linear - np.eye(3)).max() < 1e-9 and np.linalg.det(linear) > 0.0:
-        return mesh, matrix[:3, 3], quaternion(linear)
-    triangles = mesh.triangles[:, ::-1] if np.linalg.det(linear) < 0.0 else mesh.triangles
-    return Mesh(mesh.points @ linear.T, triangles), matrix[:3, 3], np.array([1.0, 0.0, 0.0, 0.0])
-
-
-def _ball(points: Floats) -> Mesh:
-    from trimesh.creation import icosphere
-
-    middle = 0.5 * (points.min(axis=0) + points.max(axis=0))
-    ball = icosphere(subdivisions=2, radius=float(np.linalg.norm(points - middle, axis=1).max()))
-    return Mesh(np.asarray(ball.vertices) + middle, np.asarray(ball.faces, dtype=np.int32))
-
-
-def _srgb(value: float) -> float:
-    """IEC 61966-2-1: the display value of a linear one."""
-    value = min(1.0, max(0.0, value))
-    return 12.92 * value if value <= 0.0031308 else 1.055 * value ** (1.0 / 2.4) - 0.055
 
 
 def _write(element: ET.Element, path: Path) -> None:

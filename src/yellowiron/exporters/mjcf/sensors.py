@@ -22,7 +22,7 @@ from xml.etree import ElementTree as ET
 
 import numpy as np
 
-from yellowiron.exporters.mjcf.values import axes_of, minus, quaternion, row, text
+from yellowiron.exporters.values import axes_of, minus, quaternion, row, text
 from yellowiron.model.geometry import Floats
 from yellowiron.model.mechanism import Body, Joint, Mechanism
 from yellowiron.model.sensor import Sensor

@@ -15,14 +15,14 @@ import mujoco
 import numpy as np
 
 from yellowiron.kinematics.solver.floating import attached
-from yellowiron.kinematics.solver.idle_spins import idle_spins
-from yellowiron.kinematics.solver.independence import independent_joints, locked_error, square_system, suspects
+from yellowiron.kinematics.solver.independence import locked_error, square_system, suspects
 from yellowiron.kinematics.solver.multibody import build, reduced_masses, transverse
 from yellowiron.kinematics.solver.positions import continued
 from yellowiron.kinematics.tolerances import CLOSED, RANK
 from yellowiron.model.errors import MechanismError
 from yellowiron.model.geometry import Floats
-from yellowiron.model.mechanism import Mechanism, chained
+from yellowiron.model.mechanism import Mechanism, chained, independent_joints
+from yellowiron.support.spatial import idle_spins
 from yellowiron.support.text import with_article
 
 _STEP = {"prismatic": 0.2, "revolute": 0.35}

@@ -15,25 +15,6 @@ from yellowiron.model.geometry import Floats
 from yellowiron.model.mechanism import Mechanism
 
 
-def independent_joints(mechanism: Mechanism) -> tuple[str, ...]:
-    """Tree joints with a coordinate of their own: the driven slide of each cylinder actuator, every motor joint, every
-    driven joint besides, and the joints declared free; none that follows another. In the mechanism's order."""
-    passive = {cylinder.slide for cylinder in mechanism.cylinders if cylinder.passive}
-    actuated = {
-        entry.joint
-        for actuator in mechanism.actuators
-        for entry in (actuator.joints[:1] if actuator.kind == "cylinder" else actuator.joints)
-    }
-    return tuple(
-        joint.name
-        for joint in mechanism.joints
-        if not joint.cut
-        and joint.follows is None
-        and joint.name not in passive
-        and (joint.name in actuated or joint.free or joint.drive is not None)
-    )
-
-
 def suspects(mechanism: Mechanism, among: Sequence[str] | None = None) -> str:
     """A hint at the joints that a user's document added or changed, the likely cause where loops lock; "" without any.
     `among`: joints that alone come into question."""

@@ -1,0 +1,1 @@
+"""A `LinkTable` → ROS 2: `urdf` (the description package), `joint_states` (a script beside it, which stands alone)."""
