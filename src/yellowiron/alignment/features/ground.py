@@ -24,13 +24,23 @@ FEWEST = 8
 def grounds_of(points: Sequence[Floats]) -> list[int]:
     """The parts, by the numbers of their points (n, 3), that are grounds: flat, under all others, and wider than these
     together. Whatever stands on a ground is not held by it."""
+    if not points:
+        return []
     sizes = np.array([float(np.linalg.norm(np.ptp(p, axis=0))) for p in points])
+    every, first = np.concatenate(points), np.cumsum([0, *map(len, points[:-1])])
+    sunk = SUNK * np.sqrt(3.0) * float(np.linalg.norm(np.ptp(every, axis=0)))  # along whatever axes, no more
     found: list[int] = []
     for k in sorted(np.flatnonzero(sizes >= 0.5 * sizes.max(initial=0.0)).tolist(), key=lambda k: (-sizes[k], k)):
         middle, axes = _lying(points[k])
         if axes is None or len(points) - len(found) <= FEWEST:
             continue
-        others = [p for i, p in enumerate(points) if i != k and i not in found]
+        left = [i for i in range(len(points)) if i != k and i not in found]
+        # Nearly every flat part has some of the machine on both sides, which one look along its normal tells.
+        height = (every - middle) @ axes[2]
+        lowest, highest = np.minimum.reduceat(height, first), np.maximum.reduceat(height, first)
+        if lowest[left].min() < lowest[k] - sunk and highest[left].max() > highest[k] + sunk:
+            continue
+        others = [points[i] for i in left]
         if _is_under((points[k] - middle) @ axes.T, (np.concatenate(others) - middle) @ axes.T):
             found.append(k)
     return found
