@@ -17,6 +17,8 @@ UNDER = 0.98
 """A ground lies under this share of all points of the machine at least …"""
 WIDER = 1.05
 """… and is this many times as large as what they cover of it."""
+_SOME = 50
+"""Of so many points one tells, nearly always, that a flat part is smaller than what is over it."""
 FEWEST = 8
 """So many parts stand on it at least: less is a model of something else, on its base."""
 
@@ -54,6 +56,14 @@ def _lying(ground: Floats) -> tuple[Floats, Floats | None]:
     return middle, axes if thick <= THIN * short and short > 0.0 else None
 
 
+def _least_area(points: Floats) -> float:
+    """What some of many points (n, 2) cover, which all of them cover at least."""
+    try:
+        return float(ConvexHull(points).volume)  # of two dimensions: the area
+    except QhullError:  # they are on a line, or too few
+        return 0.0
+
+
 def _is_under(flat: Floats, over: Floats) -> bool:
     """Whether flat points are those of a ground to other points, both along the ground's axes."""
     sunk = SUNK * float(np.linalg.norm(np.ptp(over, axis=0)))
@@ -61,10 +71,10 @@ def _is_under(flat: Floats, over: Floats) -> bool:
     if max(above) < 1.0:
         return False
     try:
-        hull, covered = ConvexHull(flat[:, :2]), ConvexHull(over[:, :2])
+        hull = ConvexHull(flat[:, :2])
+        if hull.volume < WIDER * _least_area(over[::_SOME, :2]) or hull.volume < WIDER * ConvexHull(over[:, :2]).volume:
+            return False
     except QhullError:
-        return False
-    if hull.volume < WIDER * covered.volume:  # of two dimensions: the areas
         return False
     inside = (over[:, :2] @ hull.equations[:, :2].T + hull.equations[:, 2] <= sunk).all(axis=1)
     return bool(inside.mean() >= UNDER)
