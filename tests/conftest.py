@@ -24,9 +24,10 @@ from yellowiron.report.html.viewer import NOT_BUNDLED
 ROOT = Path(__file__).resolve().parent.parent
 LONGEST = (
     "test_simulate_excavator", "test_studio_review", "test_align_merged", "test_simulate_telehandler",
-    "test_real_machines", "test_check_mutations", "test_simulate_backhoe_loader", "test_align_excavators",
+    "test_real_machines", "test_studio_session", "test_simulate_spatial", "test_check_mutations",
+    "test_simulate_backhoe_loader", "test_align_excavators",
     "test_simulate_wheeled_excavator", "test_mini_excavator_example", "test_simulate_articulated_dump_truck",
-    "test_telehandler_example", "test_simulate_dozer", "test_studio_session", "test_backhoe_loader_example",
+    "test_telehandler_example", "test_simulate_dozer", "test_backhoe_loader_example",
     "test_report_browser", "test_simulate_roller", "test_studio_page", "test_simulate_skid_steer",
     "test_simulate_hydraulics", "test_simulate_newton", "test_simulate_rigid_dump_truck", "test_studio_server",
     "test_wheeled_excavator_example", "test_align_degrade_build", "test_align_axes", "test_skid_steer_example",
