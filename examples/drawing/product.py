@@ -142,10 +142,19 @@ def extent(leaves: Iterable[Occurrence], where: gp_Trsf | None = None) -> NDArra
 def farthest(leaves: Iterable[Occurrence], moves: Mapping[str, gp_Trsf]) -> float:
     """Greatest distance of the parts from the machine's upright axis, to a hundredth of a millimetre; `moves` carries
     the parts of a body."""
-    most = 0.0
+    shapes = []
     for leaf in leaves:
         place = moves[leaf.body].Multiplied(leaf.place) if leaf.body in moves else leaf.place
-        shape = moved(leaf.part.shape, place)
+        shape, box = moved(leaf.part.shape, place), Bnd_Box()
+        BRepBndLib.Add_s(shape, box, False)
+        low, high = box.CornerMin(), box.CornerMax()
+        reach = math.hypot(max(-low.X(), high.X(), 0.0), max(-low.Y(), high.Y(), 0.0))
+        shapes.append((reach, shape))
+    most = 0.0
+    # Meshes are fine: only of what may reach farther than what was seen before, by its box.
+    for reach, shape in sorted(shapes, key=lambda one: -one[0]):
+        if reach < most:
+            break
         BRepMesh_IncrementalMesh(shape, 0.01, False, 0.05)
         faces = TopExp_Explorer(shape, TopAbs_ShapeEnum.TopAbs_FACE)
         while faces.More():

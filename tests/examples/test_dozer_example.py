@@ -133,7 +133,7 @@ def test_the_blade_goes_where_the_independent_solution_has_it(built: Built, link
 @pytest.mark.slow
 @pytest.mark.parametrize("names", ["", "nameless"])
 def test_every_part_is_in_its_body_on_triangles_too(names: str, made_once: MadeOnce) -> None:
-    found = recognised(TYPE, drawn_example(TYPE, made_once), names, "triangles")
+    found = recognised(TYPE, drawn_example(TYPE, made_once), names, "triangles", made_once)
     assert found.choices["blade"] == "pat"
 
 

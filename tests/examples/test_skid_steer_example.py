@@ -173,7 +173,7 @@ def test_the_links_carry_the_arms_as_they_were_solved(built: Built, linkage: Mod
     ],
 )
 def test_every_part_is_in_its_body(path: str, names: str, surfaces: str, made_once: MadeOnce) -> None:
-    found = recognised("skid_steer", drawn_example("skid_steer", made_once, path), names, surfaces)
+    found = recognised("skid_steer", drawn_example("skid_steer", made_once, path), names, surfaces, made_once)
     assert found.choices["lift_path"] == path
 
 

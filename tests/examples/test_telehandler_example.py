@@ -137,4 +137,4 @@ def _with_pins(truth: dict[str, object]) -> dict[str, object]:
 @pytest.mark.slow
 @pytest.mark.parametrize(("kind", "names"), itertools.product(["two", "three"], ["", "nameless"]))
 def test_every_part_is_in_its_body_on_triangles(kind: str, names: str, made_once: MadeOnce) -> None:
-    recognised(TYPE, drawn_example(TYPE, made_once, kind), names, "triangles")
+    recognised(TYPE, drawn_example(TYPE, made_once, kind), names, "triangles", made_once)

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import contextlib
+import hashlib
 import io
 import os
 import pickle
@@ -36,7 +37,8 @@ def read_once(file: Path, made_once: MadeOnce) -> Any:
         folder.mkdir()
         (folder / "assembly.pickle").write_bytes(pickle.dumps(read_cad(file)))
 
-    return pickle.loads((made_once(f"read_{file.parent.name}_{file.name}", fill) / "assembly.pickle").read_bytes())
+    whole = hashlib.sha256(os.path.realpath(file).encode()).hexdigest()[:12]  # drawings without names are named alike
+    return pickle.loads((made_once(f"read_{file.stem}_{whole}", fill) / "assembly.pickle").read_bytes())
 
 
 @contextmanager

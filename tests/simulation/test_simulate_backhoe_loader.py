@@ -22,8 +22,9 @@ def file(made_once: MadeOnce) -> Path:
     return built_example("backhoe_loader", made_once)
 
 
+# In the other engines what no other machine has: two cylinders that swing a boom against each other.
 @pytest.mark.parametrize(
-    ("engine", "actuators"), [("mujoco", None), ("newton", ["backhoe_swing"]), ("physx", ["backhoe_swing", "boom"])]
+    ("engine", "actuators"), [("mujoco", None), ("newton", ["backhoe_swing"]), ("physx", ["backhoe_swing"])]
 )
 def test_full_strokes(file: Path, engine: str, actuators: list[str] | None) -> None:
     in_engines.need(engine)

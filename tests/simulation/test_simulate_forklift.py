@@ -7,9 +7,9 @@ from pathlib import Path
 import in_engines
 import pytest
 
-from kit.builds import MadeOnce, without_pages
+from kit.builds import MadeOnce
+from kit.machines.drawn_examples import build_example
 from kit.machines.forklifts import SHEET, drawn
-from yellowiron.pipeline import build
 from yellowiron.simulation import rated_payload, run_tests, simulate
 from yellowiron.simulation.registry import import_engine
 from yellowiron.usd import read_mechanism
@@ -19,14 +19,7 @@ pytestmark = pytest.mark.slow
 
 @pytest.fixture(scope="module")
 def file(made_once: MadeOnce) -> Path:
-    cad = drawn("simplex", made_once) / "forklift.step"
-
-    def fill(folder: Path) -> None:
-        folder.mkdir()
-        with without_pages():
-            build("forklift", cad, folder / "out", sheets=(SHEET,))
-
-    return made_once("forklift_built", fill) / "out" / "forklift.usda"
+    return build_example("forklift", drawn("simplex", made_once), made_once, named=True, sheet=SHEET).machine.usd
 
 
 @pytest.mark.parametrize(

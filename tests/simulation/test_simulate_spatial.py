@@ -27,7 +27,7 @@ MACHINES = {
 }
 
 
-@pytest.fixture(scope="module", params=MACHINES)
+@pytest.fixture(scope="module", params=["blade", "drawbar", pytest.param("push_arms", marks=pytest.mark.slow)])
 def written(request: pytest.FixtureRequest, tmp_path_factory: pytest.TempPathFactory) -> tuple[Mechanism, Path]:
     mechanism = complete(MACHINES[request.param]())
     return mechanism, write(tmp_path_factory.mktemp(request.param), mechanism)

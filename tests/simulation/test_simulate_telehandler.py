@@ -9,7 +9,7 @@ from pathlib import Path
 import in_engines
 import pytest
 
-from kit.builds import MadeOnce, without_pages
+from kit.builds import MadeOnce, reading_once, without_pages
 from kit.machines.drawn_examples import built_example, drawn_example
 from yellowiron.pipeline import build
 from yellowiron.simulation import drive, run_tests, simulate
@@ -29,8 +29,10 @@ def driven(file: Path) -> DrivingResult:
     return drive(file, engine="mujoco")
 
 
-# Newton's telescope is that of three sections, below.
-@pytest.mark.parametrize(("engine", "actuators"), [("mujoco", None), ("newton", ["steering"]), ("physx", None)])
+# The telescope in the other engines is that of three sections, below.
+@pytest.mark.parametrize(
+    ("engine", "actuators"), [("mujoco", None), ("newton", ["steering"]), ("physx", ["steering", "tilt"])]
+)
 def test_full_strokes(file: Path, engine: str, actuators: list[str] | None) -> None:
     _strokes(file, engine, actuators)
 
@@ -62,17 +64,16 @@ def test_it_drives_on_all_wheels_and_steers_with_the_front_ones(driven: DrivingR
     assert list(driving_findings(driven)) == []
 
 
-def test_steered_by_all_wheels_it_turns_in_little_more_than_half(made_once: MadeOnce, driven: DrivingResult) -> None:
+def test_steered_by_all_wheels_it_turns_in_little_more_than_half(
+    file: Path, driven: DrivingResult, made_once: MadeOnce, tmp_path: Path
+) -> None:
     folder = drawn_example("telehandler", made_once, "two")
-
-    def fill(out: Path) -> None:
-        out.mkdir()
-        with without_pages():
-            cad, sheet = folder / "telehandler.step", folder / "specifications.pdf"
-            build("telehandler", cad, out / "out", sheets=(sheet,), settings=("steering_mode=all",))
-
-    every = made_once("telehandler_all_steered", fill) / "out" / "telehandler.usda"
-    all_ = drive(every, engine="mujoco")
+    cad, sheet, known = folder / "telehandler.step", folder / "specifications.pdf", file.parent / "alignment.json"
+    with without_pages(), reading_once(made_once, folder):
+        machine = build(
+            "telehandler", cad, tmp_path / "out", sheets=(sheet,), settings=("steering_mode=all",), alignment_file=known
+        )
+    all_ = drive(machine.usd, engine="mujoco")
     assert driven.turning_radius is not None and all_.turning_radius is not None
     # Its four axes do not meet, steered as two wheels want it: where the middle is then, friction decides.
     assert 0.5 < all_.turning_radius / driven.turning_radius < 0.65

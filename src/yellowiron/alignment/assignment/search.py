@@ -40,7 +40,8 @@ EFFORT = 4.0
 EACH = 1.0
 """… and for one program of it: 0.01 to 0.7."""
 MANY_JOINTS = 30
-"""A type with more joints may take more, as their cube: a backhoe loader of 59 to 63 took up to 8 for one program."""
+"""A type with more joints may take more, as their cube: a backhoe loader of 59 to 63 took up to 8 for one program when
+programs were rewritten first (`cp_sat.solve`)."""
 BROKEN = 1.1
 """More pieces that move than this many for a body, and four: spacers and rings on pins are some."""
 AGAIN = 0.5

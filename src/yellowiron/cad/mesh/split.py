@@ -147,9 +147,11 @@ def _rams(shape: Shape, eyes: Callable[[], Eyes]) -> list[Mesh]:
 def _bars_of(solids: Sequence[Mesh], bars: Sequence[CylinderFeature]) -> dict[int, list[CylinderFeature]]:
     """Solid → its bars: a bar is of the smallest solid that reaches from one of its ends to the other."""
     size = [float(np.linalg.norm(np.ptp(mesh.points, axis=0))) for mesh in solids]
+    ends, by = _ends(bars), FITTED * np.array([bar.radius for bar in bars])
+    held = np.array([_inside(ends, mesh, by) for mesh in solids]).reshape(len(solids), len(bars))
     own: dict[int, list[CylinderFeature]] = {}
-    for bar in bars:
-        around = [n for n, mesh in enumerate(solids) if _within((bar,), mesh, FITTED * bar.radius)]
+    for bar, by_solid in zip(bars, held.T, strict=True):
+        around = np.flatnonzero(by_solid).tolist()
         if around:
             own.setdefault(min(around, key=lambda n: (size[n], n)), []).append(bar)
     return dict(sorted(own.items()))
@@ -313,23 +315,27 @@ def _moved(eyes: Eyes, transform: Floats) -> Callable[[], Eyes]:
 def _solids(shape: Shape, eyes: Callable[[], Eyes]) -> list[Mesh]:
     """The meshes of a shape's solids, barrels and rods apart; where surfaces say what is one part, only these."""
     found = [shape.mesh] if shape.exact else pieces(shape.mesh)
+    ends = _ends(shape.cylinders)
     cut = []
     for mesh in found:
-        bars = shape.cylinders if len(found) == 1 else _within(shape.cylinders, mesh)
+        bars = shape.cylinders
+        if len(found) > 1:
+            bars = tuple(itertools.compress(shape.cylinders, _inside(ends, mesh, np.zeros(len(ends)))))
         cut += _cut(mesh, bars, eyes, exact=shape.exact)
     return cut
 
 
-def _within(cylinders: tuple[CylinderFeature, ...], mesh: Mesh, by: float = 0.0) -> tuple[CylinderFeature, ...]:
-    """The cylinders whose both ends are in a mesh's box, or no further from it than `by`."""
+def _ends(cylinders: Sequence[CylinderFeature]) -> Floats:
+    """(n, 2, 3) where cylinders end."""
+    ends = [np.array(one.point) + np.outer((one.lower, one.upper), one.direction) for one in cylinders]
+    return np.array(ends).reshape(-1, 2, 3)
+
+
+def _inside(ends: Floats, mesh: Mesh, by: Floats) -> NDArray[np.bool_]:
+    """(n,) whether both `ends` (n, 2, 3) are in a mesh's box, or no further from it than `by` (n,)."""
     low, high = measures.bounds(mesh)
-    slack = by + 1e-3 * float(np.linalg.norm(high - low))
-    inside = []
-    for one in cylinders:
-        ends = np.array(one.point) + np.outer((one.lower, one.upper), one.direction)
-        if (ends > low - slack).all() and (ends < high + slack).all():
-            inside.append(one)
-    return tuple(inside)
+    slack = (by + 1e-3 * float(np.linalg.norm(high - low)))[:, None, None]
+    return np.asarray(((ends > low - slack) & (ends < high + slack)).all(axis=(1, 2)))
 
 
 def _cut(mesh: Mesh, bars: tuple[CylinderFeature, ...], eyes: Callable[[], Eyes], *, exact: bool) -> list[Mesh]:
