@@ -164,9 +164,10 @@ class _Robot:
             return made
         ET.SubElement(made, "axis", xyz=row(one.axis))
         drive = one.drive
+        # One limit both ways: the stronger one's force, the slower one's speed.
         limit = {
-            "effort": text(drive.max_force if drive is not None and math.isfinite(drive.max_force) else 0.0),
-            "velocity": text(drive.max_velocity if drive is not None and 0.0 < drive.max_velocity < math.inf else _FAR),
+            "effort": text(drive.strongest if drive is not None and math.isfinite(drive.strongest) else 0.0),
+            "velocity": text(drive.slowest if drive is not None and 0.0 < drive.slowest < math.inf else _FAR),
         }
         if kind != "continuous":
             low, high = (one.lower, one.upper) if bounded else (-_FAR, _FAR)

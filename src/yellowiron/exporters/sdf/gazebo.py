@@ -111,8 +111,8 @@ def _controller(model: ET.Element, one: Edge) -> None:
         child(made, "i_gain", "0")
         child(made, "d_gain", text(drive.damping))
         if 0.0 < drive.max_force < math.inf:
-            child(made, "cmd_max", text(drive.max_force))
-            child(made, "cmd_min", text(-drive.max_force))
+            child(made, "cmd_max", text(drive.forces[1]))
+            child(made, "cmd_min", text(-drive.forces[0]))
     else:
         child(_plugin(model, "joint-controller", "JointController"), "joint_name", one.name)
 

@@ -63,10 +63,10 @@ def add_joint(model: ET.Element, one: Edge, table: LinkTable) -> ET.Element:
     drive = one.drive
     if drive is None:
         child(limit, "effort", "0")
-    elif 0.0 < drive.max_force < math.inf:
-        child(limit, "effort", text(drive.max_force))
-    if drive is not None and 0.0 < drive.max_velocity < math.inf:
-        child(limit, "velocity", text(drive.max_velocity))
+    elif 0.0 < drive.strongest < math.inf:
+        child(limit, "effort", text(drive.strongest))
+    if drive is not None and 0.0 < drive.slowest < math.inf:
+        child(limit, "velocity", text(drive.slowest))
     return made
 
 
