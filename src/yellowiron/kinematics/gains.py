@@ -39,7 +39,7 @@ _SPIN = 0.05
 beside what it moves, which takes a second."""
 _SAGS = 0.02
 """A drive gives way to the weight on it by no more than this share of its travel: short strokes need more stiffness."""
-_SOFTEST, _STIFFEST = 10.0, 200.0
+_SOFTEST, _STIFFEST = 25.0, 200.0
 """… but never more than the second of these times its damping, 1/s, a fifth of what the step bears; a stiffness that is
 given may be as little as the first."""
 _OWN, _OTHERS, _LOOSE = 13, 25, 27
@@ -117,7 +117,7 @@ def position_gains(
 
     Gains that the drive has stay, unless its source calls them provisional; those that "template states" names after
     that stay too. A stiffness that stays gets critical damping, d = 2√(km), where it has none, and more where the step
-    bears it, by which it still follows a tenth of a second behind.
+    bears it and follows no more than 40 ms behind.
     """
     provisional = PROVISIONAL in drive.source
     stated = drive.source.partition(STATED)[2]

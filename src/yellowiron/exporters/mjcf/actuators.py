@@ -12,6 +12,9 @@ from yellowiron.model.mechanism import Actuator, ActuatorJoint, Drive, Joint, Me
 HARD_SOLREF = (0.002, 1.0)
 SOLIMP = (0.9999, 0.9999, 0.001, 0.5, 2.0)
 """As in the USD. With 0.999 first, pins of a loaded wheel loader err ten times as much (0.022 against 0.002 mm)."""
+SLOWED = 0.75
+"""Of its rated speed: what its whole force may slow a drive by whose speed is limited. Gains that are computed keep to
+half to two thirds; stated ones may be too soft, and have no limit then."""
 DAMPING = ".damping"
 """Ends the name of the actuator that damps another's joint; its control does nothing."""
 
@@ -69,15 +72,15 @@ def limits(drive: Drive) -> dict[str, str]:
 
 
 def rated(drive: Drive) -> bool:
-    """Whether a drive's speed is limited in MJCF: it holds a position, has a rated speed both ways, and damping enough
-    for its whole force at standstill.
+    """Whether a drive's speed is limited in MJCF: it holds a position, has a rated speed both ways, and so much damping
+    that its whole force does not slow it by more than three quarters.
 
     Its force is then clamp(clamp(k·(target − q), −d·v₋, d·v₊) − d·q̇, −F₋, F₊): however far the target, no faster than
     v₋ and v₊, and no stronger than F₋ and F₊. The inner clamp is the servo's `forcerange`, the outer one the joint's
     `actuatorfrcrange`, and between them the damper is an actuator of its own.
     """
     both = zip(drive.forces, drive.speeds, strict=True)
-    return drive.kind == "position" and all(0.0 < v < math.inf and f <= drive.damping * v for f, v in both)
+    return drive.kind == "position" and all(0.0 < v < math.inf and f <= SLOWED * drive.damping * v for f, v in both)
 
 
 def _controls(actuator: Actuator, mechanism: Mechanism) -> dict[str, ActuatorJoint]:
