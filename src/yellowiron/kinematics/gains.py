@@ -39,9 +39,8 @@ _SPIN = 0.05
 beside what it moves, which takes a second."""
 _SAGS = 0.02
 """A drive gives way to the weight on it by no more than this share of its travel: short strokes need more stiffness."""
-_SOFTEST, _STIFFEST = 25.0, 200.0
-"""… but never more than the second of these times its damping, 1/s, a fifth of what the step bears; a stiffness that is
-given may be as little as the first."""
+_STIFFEST = 200.0
+"""… but never more than so many times its damping, 1/s: a fifth of what the step bears."""
 _OWN, _OTHERS, _LOOSE = 13, 25, 27
 """Poses sampled: of a drive's own component, of each other one, and of drives outside of all loops."""
 _MOUNTED = 0.01
@@ -96,11 +95,10 @@ def set_gains(
         else:
             travel = joint.upper - joint.lower if joint.upper is not None and joint.lower is not None else None
             held = abs(weight(chain, chain.drawn, name)) if travel else 0.0
-            mass = float(seen.moved[number] + armatures[number])
             made = position_gains(
                 drive,
                 float(dampings[number]),
-                mass,
+                float(seen.moved[number]),
                 unit="kg" if joint.type == "prismatic" else "kg·m²",
                 softest=held / (_SAGS * travel) if travel else 0.0,
                 armature=float(armatures[number]),
@@ -116,8 +114,7 @@ def position_gains(
     the `mass` it usually moves (kg, kg·m²), no less than `softest` (N/m, N·m/rad).
 
     Gains that the drive has stay, unless its source calls them provisional; those that "template states" names after
-    that stay too. A stiffness that stays gets critical damping, d = 2√(km), where it has none, and more where the step
-    bears it and follows no more than 40 ms behind.
+    that stay too. A stiffness that stays gets critical damping, d = 2√(km), where it has none.
     """
     provisional = PROVISIONAL in drive.source
     stated = drive.source.partition(STATED)[2]
@@ -128,12 +125,13 @@ def position_gains(
     if keep_damping:
         damping, armature = drive.damping, 0.0
     elif keep_stiffness:
-        damping = max(2.0 * math.sqrt(drive.stiffness * mass), min(damping, drive.stiffness / _SOFTEST))
-    rate = min(RATE, damping / (4.0 * RATIO**2 * mass)) if mass > 0.0 else RATE
+        damping, armature = 2.0 * math.sqrt(drive.stiffness * mass), 0.0
+    whole = mass + armature
+    rate = min(RATE, damping / (4.0 * RATIO**2 * whole)) if whole > 0.0 else RATE
     stiffness = min(max(rate * damping, softest), _STIFFEST * damping)
     if keep_stiffness:
         stiffness = drive.stiffness
-        gains = "gains: damped critically or more for"
+        gains = "gains: damped critically for"
     elif keep_damping:
         gains = f"gains: stiffness {stiffness / damping:.3g} times a second its damping, for"
     else:
