@@ -20,6 +20,8 @@ from pathlib import Path
 import mujoco
 import numpy as np
 
+from yellowiron.hydraulics import Hydraulics
+from yellowiron.model.mechanism import Mechanism
 from yellowiron.usd import read_mechanism
 
 ROOT = Path(__file__).resolve().parent.parent
@@ -68,6 +70,8 @@ def bench(file: Path, folder: Path) -> None:
             )
         print(f"    lag {1e3 * lag(scene, name):.0f} ms")
     print(f"  longest stable step: {margin(scene):.2f} times the file's")
+    for label, oil in (("targets at the strokes' ends", None), ("levers, through the oil", Hydraulics(mechanism))):
+        print(f"  all cylinders at once, {label}: {1e-3 * power(scene, mechanism, oil):.0f} kW at most")
     released, held = (creep(scene, brakes=brakes) for brakes in (False, True))
     print(f"  on 20 degrees: {1e3 * released:.1f} mm/s with its brakes released, {1e3 * held:.2f} with them set")
 
@@ -165,6 +169,30 @@ def margin(scene: Path) -> float:
             break
         longest = float(factor)
     return longest
+
+
+def power(scene: Path, mechanism: Mechanism, oil: Hydraulics | None) -> float:
+    """The most (W) that all cylinders do at once, to one end of their strokes and to the other."""
+    model, data = load(scene)
+    mujoco.mj_step(model, data, 1500)
+    circuits = Hydraulics(mechanism).circuits
+    places = {c.slide: address(model, name) for name, c in circuits.items()}
+    dofs = [velocity for _, _, velocity, _ in places.values()]
+    most = 0.0
+    for lever in (1.0, -1.0):
+        for _ in range(4000):
+            if oil is None:
+                told = {c.slide: (c.lower, c.upper)[lever * c.sign > 0.0] for c in circuits.values()}
+            else:
+                strokes = {slide: float(data.qpos[position]) for slide, (_, position, _, _) in places.items()}
+                forces = {s: float(data.qfrc_actuator[velocity]) for s, (_, _, velocity, _) in places.items()}
+                levers = dict.fromkeys(circuits, lever)
+                told = oil.step(levers, strokes, model.opt.timestep, forces=forces)
+            for slide, (number, _, _, sign) in places.items():
+                data.ctrl[number] = sign * told[slide]
+            mujoco.mj_step(model, data)
+            most = max(most, float(np.maximum(data.qfrc_actuator[dofs] * data.qvel[dofs], 0.0).sum()))
+    return most
 
 
 def creep(scene: Path, *, brakes: bool) -> float:

@@ -1,0 +1,177 @@
+"""The oil between levers and cylinders: valves that open over time, one pump's flow shared, the engine's power, relief.
+
+    hydraulics = Hydraulics(read_mechanism("out/excavator/excavator.usda"))
+    targets = hydraulics.step({"boom": 0.6, "bucket": -1.0}, strokes, 0.001, forces=forces)
+
+Every engine's position drives can be told the targets; numpy and a machine's mechanism are all that it needs. SI.
+"""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Mapping
+from dataclasses import dataclass
+
+from yellowiron.model.errors import YellowironError
+from yellowiron.model.mechanism import Actuator, Mechanism
+from yellowiron.model.specification import fold
+
+SPOOL = 0.15
+"""Seconds from a closed valve to one wide open."""
+ENGINE = ("Net Power", "Engine Power", "Gross Power")
+"""Specifications that say what the engine has, the first that is known."""
+TO_OIL = 0.85
+"""Of the engine's power, what reaches the oil."""
+
+
+@dataclass(frozen=True)
+class Circuit:
+    """One actuator's driven slide. In the slide's negative and positive direction: the `areas` (m²) of all its
+    cylinders that the pump fills, the rated `speeds` (m/s) and the `forces` (N) at relief pressure. `sign`: +1 where
+    the actuator's positive sense extends it. `lower` and `upper` are its ends, `softness` the drive's, m/N."""
+
+    actuator: str
+    slide: str
+    sign: int
+    areas: tuple[float, float]
+    speeds: tuple[float, float]
+    forces: tuple[float, float]
+    lower: float
+    upper: float
+    softness: float
+
+
+class Hydraulics:
+    """The valves and the pump of one machine, from step to step. One object serves one machine.
+
+    `circuits` by actuator are what it drives; motors and what has no rated speed are left to others.
+    """
+
+    def __init__(
+        self,
+        mechanism: Mechanism,
+        *,
+        flow: float | None = None,
+        power: float | None = None,
+        spool: float = SPOOL,
+    ) -> None:
+        """`flow`: what the pump gives all cylinders together, m³/s (default: what its largest consumer takes at rated
+        speed). `power`: what it has for it, W (default: 0.85 of the engine's by the sheet, else unlimited). `spool`:
+        seconds in which a valve opens.
+
+        `YellowironError` where no cylinder of the machine has a rated speed.
+        """
+        made = (_circuit(mechanism, actuator) for actuator in mechanism.actuators)
+        self.circuits: Mapping[str, Circuit] = {circuit.actuator: circuit for circuit in made if circuit is not None}
+        if not self.circuits:
+            raise YellowironError(
+                "No cylinder of the machine has a rated speed",
+                where=mechanism.name,
+                hint="Give the pump's flow and the bores, or a sheet, and build it again.",
+            )
+        largest = max(a * v for c in self.circuits.values() for a, v in zip(c.areas, c.speeds, strict=True))
+        self.flow = largest if flow is None else float(flow)
+        """m³/s of the pump."""
+        self.power = _engine(mechanism) * TO_OIL if power is None else float(power)
+        """W at the pump; infinite where nothing says it."""
+        self._spool = spool
+        self._openings = dict.fromkeys(self.circuits, 0.0)
+        self._targets: dict[str, float] = {}
+        self.speeds: Mapping[str, float] = dict.fromkeys(self.circuits, 0.0)
+        """Actuator → the speed that its oil gives it, m/s of its slide, at the last step."""
+
+    def step(
+        self,
+        levers: Mapping[str, float],
+        strokes: Mapping[str, float],
+        seconds: float,
+        *,
+        forces: Mapping[str, float] | None = None,
+    ) -> dict[str, float]:
+        """Slide → its drive's target, metres from the drawn pose, a step of so many `seconds` on.
+
+        `levers`: actuator → −1 … 1 of its valve, positive in the actuator's sense; those not named are let go, and hold
+        their load. `strokes`: slide → where it is. `forces`: slide → what its drive exerts, N, positive extending:
+        what the pump's power is shared by; without it a load weighs nothing. `KeyError` for an actuator that is none of
+        `circuits`.
+        """
+        for name in levers:
+            if name not in self.circuits:
+                raise KeyError(f"'{name}' has no cylinder here; there are: {', '.join(self.circuits)}")
+        demands: dict[str, tuple[float, float]] = {}
+        for name, circuit in self.circuits.items():
+            opening = self._opened(name, circuit.sign * max(-1.0, min(1.0, levers.get(name, 0.0))), seconds)
+            way, sense = int(opening > 0.0), math.copysign(1.0, opening)
+            area = circuit.areas[way]
+            load = sense * (forces or {}).get(circuit.slide, 0.0)
+            # A load that pulls the way it goes needs none, and the relief valve opens at the rated force.
+            pressure = max(0.0, min(load, circuit.forces[way])) / area
+            demands[name] = abs(opening) * area * circuit.speeds[way], pressure
+        share = self._share(demands)
+        targets = {}
+        speeds = {}
+        for name, circuit in self.circuits.items():
+            opening = self._openings[name]
+            way = int(opening > 0.0)
+            speeds[name] = math.copysign(share * demands[name][0] / circuit.areas[way], opening)
+            targets[circuit.slide] = self._target(circuit, strokes[circuit.slide], speeds[name] * seconds)
+        self.speeds = speeds
+        return targets
+
+    def controls(self, targets: Mapping[str, float]) -> dict[str, float]:
+        """Actuator → the control of its servo in the exported MJCF, for the targets of `step`."""
+        return {name: circuit.sign * targets[circuit.slide] for name, circuit in self.circuits.items()}
+
+    def _opened(self, name: str, wanted: float, seconds: float) -> float:
+        """The valve's opening, as far towards what is wanted as it gets in that time."""
+        most = seconds / self._spool if self._spool > 0.0 else math.inf
+        self._openings[name] += max(-most, min(most, wanted - self._openings[name]))
+        return self._openings[name]
+
+    def _share(self, demands: Mapping[str, tuple[float, float]]) -> float:
+        """Of all demands (flow, pressure) the share that the pump has flow and power for: valves share it evenly,
+        whatever their loads, as those with pressure compensators do."""
+        flow = sum(each for each, _ in demands.values())
+        share = min(1.0, self.flow / flow) if flow > 0.0 else 1.0
+        power = share * sum(each * pressure for each, pressure in demands.values())
+        return share * (min(1.0, self.power / power) if power > 0.0 else 1.0)
+
+    def _target(self, circuit: Circuit, stroke: float, way: float) -> float:
+        """The target, moved on; no farther from where the slide is than the drive's whole force reaches: oil that
+        cannot move it goes over the relief valve."""
+        target = self._targets.get(circuit.slide, stroke) + way
+        if way != 0.0:
+            back, forth = (force * circuit.softness for force in circuit.forces)
+            target = max(stroke - back, min(stroke + forth, target))
+        self._targets[circuit.slide] = target = max(circuit.lower, min(circuit.upper, target))
+        return target
+
+
+def _circuit(mechanism: Mechanism, actuator: Actuator) -> Circuit | None:
+    if actuator.kind != "cylinder" or not actuator.joints:
+        return None
+    lead = actuator.joints[0]
+    joint = mechanism.joint(lead.joint)
+    drive = joint.drive
+    signs = {entry.joint: entry.sign * lead.sign for entry in actuator.joints}
+    cylinders = [c for c in mechanism.cylinders if c.slide in signs and c.pressure > 0.0]
+    if drive is None or joint.lower is None or joint.upper is None or not cylinders or not drive.stiffness > 0.0:
+        return None
+    if not all(0.0 < v < math.inf for v in drive.speeds) or not all(0.0 < f < math.inf for f in drive.forces):
+        return None
+    # A twin of the other sign fills its other side.
+    areas = [
+        sum((c.push_force if (signs[c.slide] > 0) == extends else c.pull_force) / c.pressure for c in cylinders)
+        for extends in (False, True)
+    ]
+    return Circuit(
+        actuator.name, joint.name, lead.sign, (areas[0], areas[1]), drive.speeds, drive.forces,
+        joint.lower, joint.upper, 1.0 / drive.stiffness,
+    )  # fmt: skip
+
+
+def _engine(mechanism: Mechanism) -> float:
+    """W of the engine, by the first of `ENGINE` that the sheet gives; infinite where it gives none."""
+    known = {fold(name): entry for name, entry in mechanism.specifications.items() if entry.get("status") == "ok"}
+    values = (known[fold(name)].get("value") for name in ENGINE if fold(name) in known)
+    return next((float(value) for value in values if value), math.inf)
