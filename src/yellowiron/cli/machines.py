@@ -99,7 +99,7 @@ def simulate(
 @command(app)
 def export(
     machine: Annotated[Path, typer.Argument(metavar="FILE.usd", help="A machine that build wrote.")],
-    to: Annotated[str, typer.Option("--to", help="mjcf, urdf, sdf or drake.")],
+    to: Annotated[str, typer.Option("--to", help="mjcf, urdf, sdf, drake or isaaclab.")],
     out: Annotated[Path, typer.Option("--out", help="The folder to write to.")],
 ) -> None:
     """Write the same machine for another simulator."""

@@ -55,6 +55,11 @@ EXPORTERS: Mapping[str, Exporter] = MappingProxyType(
             "yellowiron.exporters.sdf.drake:export_drake",
             unsaid="yellowiron.exporters.sdf.drake:drake_unsaid",
         ),
+        "isaaclab": Exporter(
+            "a configuration for Isaac Lab",
+            "yellowiron.exporters.isaaclab:export_isaaclab",
+            unsaid="yellowiron.exporters.isaaclab:isaaclab_unsaid",
+        ),
     }
 )
 
