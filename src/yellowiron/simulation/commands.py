@@ -34,11 +34,13 @@ _SAMPLE = 0.05
 
 @dataclass(frozen=True, eq=False)
 class Pace:
-    """The largest acceleration `limits` (n,) of a target at `places` (n,) along its way, m/s² or rad/s². A motor's is
-    the same wherever it stands."""
+    """The largest acceleration `limits` (n,) of a target at `places` (n,) along its way, m/s² or rad/s², and the
+    largest `speeds` (n, 2), m/s or rad/s, in the negative and in the positive direction. A motor's are the same
+    wherever it stands."""
 
     places: Floats
     limits: Floats
+    speeds: Floats | None = None
 
 
 @dataclass(frozen=True)
@@ -181,7 +183,10 @@ def travel(start: float, end: float, speed: float, timestep: float, pace: Pace |
     if pace is not None:
         limits = np.minimum(limits, np.interp(places, pace.places, pace.limits))
     gain = 2.0 * step * 0.5 * (limits[1:] + limits[:-1])
-    squared = np.full(_GRID, speed**2)
+    speeds = np.full(_GRID, speed)
+    if pace is not None and pace.speeds is not None:
+        speeds = np.minimum(speeds, np.interp(places, pace.places, pace.speeds[:, int(end > start)]))
+    squared = speeds**2
     squared[0] = squared[-1] = 0.0
     for i in range(1, _GRID):
         squared[i] = min(squared[i], squared[i - 1] + gain[i - 1])

@@ -7,6 +7,7 @@ from collections.abc import Mapping, Sequence
 
 import numpy as np
 
+from yellowiron.exporters.mjcf.actuators import rated
 from yellowiron.kinematics import ClosedChain, weight
 from yellowiron.model.geometry import Floats
 from yellowiron.simulation.commands import Motion, Pace, sampled
@@ -60,7 +61,7 @@ def _motor(chain: ClosedChain, motion: Motion) -> Pace:
 def _pace(chain: ClosedChain, motion: Motion) -> Pace:
     drive = chain.mechanism.joint(motion.joint).drive
     places: Floats = np.linspace(motion.low, motion.high, _POINTS)
-    limits = np.full(_POINTS, math.inf)
+    limits, speeds = np.full(_POINTS, math.inf), np.full((_POINTS, 2), math.inf)
     state = chain.drawn
     for number, place in enumerate(places.tolist()):
         state, fraction = chain.reach({motion.joint: place}, start=state)
@@ -69,4 +70,8 @@ def _pace(chain: ClosedChain, motion: Motion) -> Pace:
         if fraction == 1.0 and math.isfinite(spare := min(push - held, pull + held)):
             spare = max(0.1 * min(push, pull), spare)
             limits[number] = SPARE * spare / chain.effective_mass(state, motion.joint)
-    return Pace(places, limits)
+        if fraction == 1.0 and drive is not None and rated(drive):
+            # A drive whose speed is limited has its force by how much slower than rated it is.
+            hindered = np.maximum(0.0, np.array([-held, held])) / drive.damping
+            speeds[number] = np.maximum(0.1 * np.array(drive.speeds), np.array(drive.speeds) - hindered)
+    return Pace(places, limits, speeds)
