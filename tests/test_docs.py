@@ -110,6 +110,7 @@ def test_the_learners_page_runs(root: Path, built: Path, tmp_path: Path, monkeyp
     assert names["boom"].angle(names["boom"].stroke(-0.5)) == pytest.approx(-0.5, abs=1e-6)
     turned = names["chain"].coordinate(names["state"], names["boom"].pivot)
     assert turned == pytest.approx(float(names["boom"].angle(0.2)), abs=2e-4)
+    assert names["controls"]["boom"] > 0.0 > names["controls"]["bucket"]
 
 
 def test_pages_made_from_docstrings_are_those_of_the_code(root: Path) -> None:
