@@ -11,11 +11,13 @@ import pytest
 from in_engines import need
 from plain_engines import play, world_with
 
+from kit.machines import small_machine
 from kit.machines.simple_machines import write
 from yellowiron.exporters import Geometry, export_mjcf
 from yellowiron.kinematics import complete
 from yellowiron.kinematics.brakes import SLOPE
 from yellowiron.model.mechanism import Actuator, ActuatorJoint, Body, Drive, Joint, Mechanism
+from yellowiron.simulation import rated_payload
 from yellowiron.usd import read_mechanism
 
 ARM, MASS = 2.0, 1000.0
@@ -35,9 +37,9 @@ def slewing() -> Mechanism:
         equipment_type="test",
         root="stand",
         bodies=(body("stand", 3000.0, 0.0), body("arm", 10.0, 0.0), body("weight", MASS, ARM)),
-        joints=(
-            Joint("swing", "revolute", "stand", "arm", (0.0, 0.0, 1.0), (0.0, 0.0, 1.0), drive=motor),
+        joints=(  # what hangs on the arm first: joints stand in no order
             Joint("held", "fixed", "arm", "weight", (ARM, 0.0, 1.0), (0.0, 0.0, 1.0)),
+            Joint("swing", "revolute", "stand", "arm", (0.0, 0.0, 1.0), (0.0, 0.0, 1.0), drive=motor),
         ),
         actuators=(Actuator("swing", "motor", (ActuatorJoint("swing"),)),),
     )
@@ -55,6 +57,15 @@ def test_the_brake_holds_what_is_slewed_on_the_slope_and_a_quarter_more(written:
         drive = each.joint("swing").drive
         assert drive is not None
         assert drive.brake == pytest.approx(1.25 * 9.80665 * MASS * ARM * math.sin(SLOPE), rel=1e-3)
+
+
+def test_wheels_share_what_holds_the_machine_on_the_slope(mechanism: Mechanism) -> None:
+    """The weight and the rated load along the slope, at the wheels' rims, and a quarter more."""
+    drives = [j.drive for j in mechanism.joints if j.drive is not None and j.drive.kind == "velocity"]
+    load = rated_payload(mechanism).mass
+    pull = 9.80665 * (sum(b.mass for b in mechanism.bodies) + load) * math.sin(SLOPE)
+    assert len(drives) == len(small_machine.WHEELS)
+    assert sum(d.brake for d in drives) / small_machine.RADIUS == pytest.approx(1.25 * pull, rel=0.01)
 
 
 def test_mjcf_has_the_brakes_for_whoever_sets_them(written: tuple[Mechanism, Path], tmp_path: Path) -> None:

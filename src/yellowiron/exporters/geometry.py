@@ -63,11 +63,14 @@ class Geometry:
     filtered: tuple[tuple[str, str], ...] = ()
 
 
-def read_geometry(path: str | Path) -> Geometry:
-    """The geometry of the machine in a USD file (or in a scene that holds one), its physics switched on.
+def read_geometry(path: str | Path | Geometry) -> Geometry:
+    """The geometry of the machine in a USD file (or in a scene that holds one), its physics switched on; one that was
+    read before is itself.
 
     `YellowironError` where the file does not open or holds no machine of ours.
     """
+    if isinstance(path, Geometry):
+        return path
     try:
         stage = Usd.Stage.Open(str(path))
     except Tf.ErrorException as error:

@@ -11,7 +11,7 @@ import numpy as np
 from yellowiron.kinematics.solver.chain import ClosedChain, State
 from yellowiron.kinematics.solver.pose_grid import PoseGrid
 from yellowiron.kinematics.strength import rated_load
-from yellowiron.model.mechanism import GRAVITY, Joint, Mechanism, Site
+from yellowiron.model.mechanism import GRAVITY, Joint, Mechanism, Site, hanging
 
 SLOPE = math.radians(20.0)
 """The slope that brakes hold on, with the rated load: 36 %. ISO 10265 asks crawlers for 30 %, ISO 3450 others for 15 to
@@ -71,10 +71,7 @@ def _poses(chain: ClosedChain, grids: Sequence[PoseGrid]) -> list[State]:
 
 def _moment(chain: ClosedChain, pose: State, joint: Joint, load: tuple[Site, float] | None) -> float:
     """Mass times distance from a vertical axis of all that the joint carries, and of the load on it, kg·m."""
-    carried = {joint.body1}
-    for other in chain.mechanism.joints:  # parents come before their children
-        if not other.cut and other.body0 in carried:
-            carried.add(other.body1)
+    carried = hanging(chain.mechanism, [joint.body1])
     moved = chain.pose(pose)
     masses = [(b.name, b.mass, b.center_of_mass) for b in chain.mechanism.bodies if b.name in carried]
     if load is not None and load[0].body in carried:

@@ -3,7 +3,7 @@ kilograms."""
 
 from __future__ import annotations
 
-from collections.abc import Mapping
+from collections.abc import Iterable, Mapping
 from dataclasses import dataclass, field
 from typing import Any, Literal
 
@@ -284,6 +284,15 @@ def chained(mechanism: Mechanism) -> frozenset[str]:
         more = {j.body1 for j in mechanism.joints if not j.cut and j.body0 in found} - found
         found |= more
         grown = bool(more)
+    return frozenset(found)
+
+
+def hanging(mechanism: Mechanism, bodies: Iterable[str]) -> frozenset[str]:
+    """Those bodies and all that hang on them in the tree, in whatever order its joints stand."""
+    found = set(bodies)
+    tree = [joint for joint in mechanism.joints if not joint.cut]
+    while more := {joint.body1 for joint in tree if joint.body0 in found} - found:
+        found |= more
     return frozenset(found)
 
 

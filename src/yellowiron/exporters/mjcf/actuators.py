@@ -6,12 +6,10 @@ import math
 from collections.abc import Iterator
 from xml.etree import ElementTree as ET
 
+from yellowiron.exporters.mjcf.hardness import SOLIMP, SOLREF
 from yellowiron.exporters.values import row, text
 from yellowiron.model.mechanism import Actuator, ActuatorJoint, Drive, Joint, Mechanism
 
-HARD_SOLREF = (0.002, 1.0)
-SOLIMP = (0.9999, 0.9999, 0.001, 0.5, 2.0)
-"""As in the USD. With 0.999 first, pins of a loaded wheel loader err ten times as much (0.022 against 0.002 mm)."""
 SLOWED = 0.75
 """Of its rated speed: what its whole force may slow a drive by whose speed is limited. Gains that are computed keep to
 half to two thirds; stated ones may be too soft, and have no limit then."""
@@ -65,7 +63,7 @@ def limits(drive: Drive) -> dict[str, str]:
     values = {"armature": text(drive.armature)} if drive.armature > 0.0 else {}
     if drive.brake > 0.0:
         # Friction that is given later: as hard as a cut, else what it holds creeps by millimetres a second.
-        values |= {"solreffriction": row(HARD_SOLREF), "solimpfriction": row(SOLIMP)}
+        values |= {"solreffriction": row(SOLREF), "solimpfriction": row(SOLIMP)}
     if rated(drive) and math.isfinite(drive.strongest):
         values["actuatorfrcrange"] = row((-drive.forces[0], drive.forces[1]))
     return values

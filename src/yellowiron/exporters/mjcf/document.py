@@ -11,6 +11,7 @@ import numpy as np
 from yellowiron.exporters.assets import Assets, plain, unique
 from yellowiron.exporters.geometry import BodyGeometry, Collider, Geometry, read_geometry
 from yellowiron.exporters.mjcf import actuators, sensors
+from yellowiron.exporters.mjcf.hardness import SOLIMP
 from yellowiron.exporters.shapes import ConvexPieces, placed
 from yellowiron.exporters.values import axes_of, minus, quaternion, row, srgb, text
 from yellowiron.model.errors import MechanismError
@@ -51,7 +52,7 @@ def export_mjcf(
 
     Raises `MechanismError` where the joints are no tree with cuts.
     """
-    shapes = geometry if isinstance(geometry, Geometry) else read_geometry(geometry)
+    shapes = read_geometry(geometry)
     folder.mkdir(parents=True, exist_ok=True)
     name = unique(plain(mechanism.name), {"scene", "lidar"})
     document = _Document(mechanism, shapes, Assets(folder / ASSETS), base, timestep)
@@ -126,7 +127,7 @@ class _Document:
         top = ET.Element("default")
         inner = ET.SubElement(top, "default", {"class": "machine"})
         ET.SubElement(inner, "mesh", inertia="shell")
-        ET.SubElement(inner, "equality", solref=row((2.0 * self._timestep, 1.0)), solimp=row(actuators.SOLIMP))
+        ET.SubElement(inner, "equality", solref=row((2.0 * self._timestep, 1.0)), solimp=row(SOLIMP))
         visual = ET.SubElement(inner, "default", {"class": "visual"})
         ET.SubElement(visual, "geom", type="mesh", contype="0", conaffinity="0", group="2", mass="0")
         collision = ET.SubElement(inner, "default", {"class": "collision"})

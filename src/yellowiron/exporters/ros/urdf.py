@@ -40,7 +40,7 @@ def export_urdf(mechanism: Mechanism, geometry: Geometry | str | Path, folder: P
     Raises `MechanismError` where the joints are no tree with cuts.
     """
     table = links_of(mechanism)
-    shapes = geometry if isinstance(geometry, Geometry) else read_geometry(geometry)
+    shapes = read_geometry(geometry)
     package = package_name(table.name)
     # STL takes the colour that the document says in every viewer; Drake takes hulls from OBJ alone.
     hulls = Assets(folder / "meshes", form="obj")

@@ -30,7 +30,7 @@ def export_drake(mechanism: Mechanism, geometry: Geometry | str | Path, folder: 
     Raises `MechanismError` where the joints are no tree with cuts.
     """
     table = links_of(mechanism)
-    shapes = geometry if isinstance(geometry, Geometry) else read_geometry(geometry)
+    shapes = read_geometry(geometry)
     (folder / "meshes").mkdir(parents=True, exist_ok=True)
     package = package_name(table.name)
     made = _document(table, Shapes(shapes, Assets(folder / "meshes", form="obj")), f"package://{package}/meshes/")

@@ -34,7 +34,7 @@ def export_sdf(mechanism: Mechanism, geometry: Geometry | str | Path, folder: Pa
     Raises `MechanismError` where the joints are no tree with cuts.
     """
     table = links_of(mechanism)
-    shapes = geometry if isinstance(geometry, Geometry) else read_geometry(geometry)
+    shapes = read_geometry(geometry)
     (folder / "meshes").mkdir(parents=True, exist_ok=True)
     drawn = Shapes(shapes, Assets(folder / "meshes", form="obj"))
     for name, welds in (("model.sdf", False), ("model_welds.sdf", True)):

@@ -20,7 +20,7 @@ from yellowiron.model.finding import Finding
 from yellowiron.model.geometry import Floats, Shape
 from yellowiron.model.specification import Specifications
 from yellowiron.model.template import Material, Template
-from yellowiron.support.text import display, with_article
+from yellowiron.support.text import display
 
 STEEL = 7850.0
 """Density where a material states none, kg/m³."""
@@ -157,17 +157,12 @@ def weigh(
     moments, sheets = _part_moments(placement, materials, findings)
     rows = [row for body in bodies for row in placement.rows_of_body(body)]
     published = _published(template, specifications)
-    assumed = None if published else _assumed(sum(moments[row].mass for row in rows), placement, template, findings)
-    total = published[_WHOLE][1] if _WHOLE in published else assumed
-    if total is not None:
-        moments = _rolled(moments, sheets, rows, total.value, placement, findings)
+    total = published[_WHOLE][1] if _WHOLE in published else None
+    if total is None:
+        total = _assumed(sum(moments[row].mass for row in rows), placement, template, findings)
+    moments = _rolled(moments, sheets, rows, total, placement, findings)
     weights = {b: sum(moments[row].mass for row in placement.rows_of_body(b)) for b in bodies}
-    if assumed is not None:
-        value = assumed.value / sum(weights.values())
-        reached = Factor(value, f"volume × density × {value:.4g} to {assumed.source}")
-        factors = dict.fromkeys(weights, reached)
-    else:
-        factors = _factors(weights, published, findings)
+    factors = _factors(weights, published, total, findings)
     return Masses(materials, moments, factors, used, choice)
 
 
@@ -199,10 +194,10 @@ def _part_moments(
     placement: Placement, materials: Sequence[PartMaterial], findings: list[Finding]
 ) -> tuple[tuple[Moments, ...], frozenset[int]]:
     """The mass of every placed part by its volume and density, machine frame, and the rows of those that are no closed
-    solids: sheets of `SHELL`."""
+    solids, which weigh as sheets of `SHELL`."""
     result = []
     undense: dict[str, None] = {}
-    sheets: dict[int, str] = {}
+    sheets = set()
     for row, chosen in enumerate(materials):
         shape = placement.shapes[row]
         density = chosen.material.density
@@ -214,13 +209,9 @@ def _part_moments(
         else:
             corners = placement.points(row)[shape.mesh.triangles]
             result.append(shell_moments(corners, density * SHELL))
-            sheets[row] = shape.key
+            sheets.add(row)
     words = f"The material has no density: {STEEL:g} kg/m³ was taken."
     findings += [Finding("MEC030", "info", key, words) for key in undense]
-    words = f"The shape is not a closed solid: its mass is that of {with_article(f'{SHELL * 1e3:g}')} mm shell."
-    hint = "Close the solid in CAD, or give its body's weight."
-    shown = {key: placement.parts[row].id for row, key in reversed(sheets.items())}
-    findings += [Finding("MEC031", "info", where, words, hint) for where in reversed(shown.values())]
     return tuple(result), frozenset(sheets)
 
 
@@ -255,38 +246,41 @@ def _rolled(
     moments: Sequence[Moments],
     sheets: Container[int],
     rows: Sequence[int],
-    total: float,
+    total: Known | None,
     placement: Placement,
     findings: list[Finding],
 ) -> tuple[Moments, ...]:
-    """The parts with sheets as thick as the machine's weight makes them: what is closed has its volume, and the rest of
-    the weight is in what is not."""
-    open_rows = [row for row in rows if row in sheets]
-    thin = sum(moments[row].mass for row in open_rows)
-    if thin <= 0.0:
-        return tuple(moments)
-    solid = sum(moments[row].mass for row in rows) - thin
-    thickness = float(np.clip(SHELL * (total - solid) / thin, *THICKNESS))
-    words = (
-        f"Its open shapes weigh as sheets of {1e3 * thickness:.2g} mm, by what the machine's weight leaves for them."
-    )
-    findings.append(Finding("MEC038", "info", "mass", words, "Close the solids in CAD, or give their bodies' weights."))
+    """The parts with sheets as thick as the machine's weight makes them, where it is known: what is closed has its
+    volume, and the rest of the weight is in what is not. MEC031 says for every open shape how thick it is."""
+    opened = [row for row in rows if row in sheets]
+    thin = sum(moments[row].mass for row in opened)
+    thickness, why = SHELL, ""
+    if total is not None and thin > 0.0:
+        solid = sum(moments[row].mass for row in rows) - thin
+        thickness = float(np.clip(SHELL * (total.value - solid) / thin, *THICKNESS))
+        why = ", by what the machine's weight leaves for its open shapes"
+    words = f"The shape is not a closed solid: it weighs as a sheet of {1e3 * thickness:.2g} mm{why}."
+    hint = "Close the solid in CAD, or give its body's weight."
+    shown = {placement.shapes[row].key: placement.parts[row].id for row in reversed(opened)}
+    findings += [Finding("MEC031", "info", where, words, hint) for where in reversed(shown.values())]
     return tuple(m.scaled(thickness / SHELL) if row in sheets else m for row, m in enumerate(moments))
 
 
 def _factors(
-    masses: Mapping[str, float], published: Mapping[str, tuple[str, Known]], findings: list[Finding]
+    masses: Mapping[str, float],
+    published: Mapping[str, tuple[str, Known]],
+    total: Known | None,
+    findings: list[Finding],
 ) -> dict[str, Factor]:
     """The factor of each body's mass: to its published weight where there is one, and to what these leave of the
-    operating weight elsewhere. The operating weight includes fluids and operator, so they are spread over the
-    bodies."""
+    machine's (published or assumed) elsewhere. The operating weight includes fluids and operator, so they are spread
+    over the bodies."""
     factors = {body: Factor(1.0, "volume × density") for body in masses}
     for body, (name, weight) in published.items():
         if masses.get(body, 0.0) > 0.0:
             value = weight.value / masses[body]
             factors[body] = Factor(value, f"volume × density × {value:.4g} to {weight.source}")
             _report(body, value, name, weight.value, findings)
-    total = published[_WHOLE][1] if _WHOLE in published else None
     if total is None:
         return factors
     rest = [body for body in masses if body not in published]
@@ -302,6 +296,8 @@ def _factors(
     value = left / drawn
     for body in rest:
         factors[body] = Factor(value, f"volume × density × {value:.4g} to {total.source}, fluids and operator included")
+    if _WHOLE not in published:  # told with what was assumed
+        return factors
     _report(
         "every other body" if len(rest) < len(masses) else "every body",
         value,

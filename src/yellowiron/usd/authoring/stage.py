@@ -86,6 +86,18 @@ def connect(spec: Sdf.PrimSpec, name: str, type_name: Sdf.ValueTypeName, source:
     attribute.connectionPathList.explicitItems = [Sdf.Path(source)]
 
 
+def declare_variants(spec: Sdf.PrimSpec, name: str, choices: Iterable[str]) -> None:
+    """A variant set with those variants, empty where they are not there yet, on a layer's machine prim. Its selection
+    is the machine file's: layers below follow it."""
+    if name not in spec.variantSets:
+        variants = Sdf.VariantSetSpec(spec, name)
+        for choice in sorted(choices):
+            Sdf.VariantSpec(variants, choice)
+    names = list(spec.variantSetNameList.prependedItems)
+    if name not in names:
+        spec.variantSetNameList.prependedItems = [*names, name]
+
+
 def apply_schemas(spec: Sdf.PrimSpec, *names: str) -> None:
     """Applies API schemas by name, after those already applied here. The schemas need not be registered."""
     held = spec.GetInfo("apiSchemas")

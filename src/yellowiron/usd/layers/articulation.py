@@ -13,7 +13,7 @@ from __future__ import annotations
 from pxr import Sdf
 
 from yellowiron.model.mechanism import Mechanism
-from yellowiron.usd.authoring.stage import over
+from yellowiron.usd.authoring.stage import declare_variants, over
 from yellowiron.usd.planning.plan import BASE_JOINT, JOINTS, Plan
 
 BASES = ("floating", "fixed")
@@ -35,21 +35,11 @@ def root_link(mechanism: Mechanism) -> str:
     return min(free, key=lambda body: (body in spun, -mechanism.body(body).mass), default=mechanism.root)
 
 
-def write_base_set(spec: Sdf.PrimSpec) -> None:
-    """The variant set `Base` on a layer's machine prim. Its selection is the machine file's: layers below follow it."""
-    if "Base" not in spec.variantSets:
-        variants = Sdf.VariantSetSpec(spec, "Base")
-        for base in sorted(BASES):
-            Sdf.VariantSpec(variants, base)
-
-
 def articulation_roots(layer: Sdf.Layer, plan: Plan) -> tuple[Sdf.PrimSpec, ...]:
     """A layer's opinions on the articulation's root, one prim each variant of `Base`: floating, the root link; fixed,
     the joint to the world, which makes the articulation's base a fixed one (the place that UsdPhysics names for it)."""
     spec = over(layer, plan.root)
-    write_base_set(spec)
-    if "Base" not in list(spec.variantSetNameList.prependedItems):
-        spec.variantSetNameList.prependedItems = ["Base"]
+    declare_variants(spec, "Base", BASES)
     link = plan.body_paths[root_link(plan.mechanism)][len(plan.root) + 1 :]
     paths = {"floating": link, "fixed": f"{JOINTS}/{BASE_JOINT}"}
     return tuple(over(layer, f"{plan.root}{{Base={base}}}{paths[base]}") for base in BASES)

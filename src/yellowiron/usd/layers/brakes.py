@@ -5,7 +5,7 @@ from __future__ import annotations
 from pxr import Sdf, Vt
 
 from yellowiron.model.mechanism import Mechanism
-from yellowiron.usd.authoring.stage import Types, apply_schemas, over, set_attribute
+from yellowiron.usd.authoring.stage import Types, apply_schemas, declare_variants, over, set_attribute
 from yellowiron.usd.layers.drives import INSTANCES
 from yellowiron.usd.layers.mujoco import SOLIMP, SOLREF
 from yellowiron.usd.planning.plan import Plan
@@ -19,20 +19,11 @@ def has_brakes(mechanism: Mechanism) -> bool:
     return any(joint.drive is not None and joint.drive.brake > 0.0 for joint in mechanism.joints)
 
 
-def write_brakes_set(spec: Sdf.PrimSpec) -> None:
-    """The variant set `Brakes` on a layer's machine prim. Its selection is the machine file's: layers below follow."""
-    variants = Sdf.VariantSetSpec(spec, "Brakes")
-    for name in sorted(BRAKES):
-        Sdf.VariantSpec(variants, name)
-
-
 def write_brakes(layer: Sdf.Layer, plan: Plan, engine: str) -> None:
     """What holds the joints while the brakes are set, in the words of `physx` or `newton`: N·m."""
     if not has_brakes(plan.mechanism):
         return
-    machine = over(layer, plan.root)
-    write_brakes_set(machine)
-    machine.variantSetNameList.prependedItems = [*machine.variantSetNameList.prependedItems, "Brakes"]
+    declare_variants(over(layer, plan.root), "Brakes", BRAKES)
     for joint in plan.mechanism.joints:
         if joint.drive is None or not joint.drive.brake > 0.0:
             continue

@@ -11,13 +11,14 @@ from yellowiron.usd.authoring.stage import (
     add_reference,
     apply_schemas,
     connect,
+    declare_variants,
     define,
     set_attribute,
     set_display_name,
     set_targets,
 )
-from yellowiron.usd.layers.articulation import BASES, write_base_set
-from yellowiron.usd.layers.brakes import BRAKES, has_brakes, write_brakes_set
+from yellowiron.usd.layers.articulation import BASES
+from yellowiron.usd.layers.brakes import BRAKES, has_brakes
 from yellowiron.usd.layers.physx import LOOPS_LAST, loops_last
 from yellowiron.usd.layers.sensors import FILE as SENSOR_FILE
 from yellowiron.usd.planning.plan import Plan
@@ -45,17 +46,13 @@ def write_machine_layer(layer: Sdf.Layer, plan: Plan) -> None:
     spec.SetInfo("assetInfo", {"name": plan.root_name})
     set_custom(spec, describe_machine(plan.mechanism))
     _add_payload(spec, *([SENSOR_FILE] if plan.mechanism.sensors else []), "base.usda")
-    spec.variantSetNameList.prependedItems = ["Base", "Physics"]
+    declare_variants(spec, "Base", BASES)
+    declare_variants(spec, "Physics", ("on", "off"))
     spec.variantSelections.update({"Base": BASES[0], "Physics": "on"})
-    write_base_set(spec)
     if has_brakes(plan.mechanism):
-        spec.variantSetNameList.prependedItems = [*spec.variantSetNameList.prependedItems, "Brakes"]
+        declare_variants(spec, "Brakes", BRAKES)
         spec.variantSelections.update({"Brakes": BRAKES[0]})
-        write_brakes_set(spec)
-    physics = Sdf.VariantSetSpec(spec, "Physics")
-    Sdf.VariantSpec(physics, "off")
-    on = Sdf.VariantSpec(physics, "on").primSpec
-    _add_payload(on, *ENGINE_LAYERS)
+    _add_payload(spec.variantSets["Physics"].variants["on"].primSpec, *ENGINE_LAYERS)
 
 
 def _add_payload(spec: Sdf.PrimSpec, *files: str) -> None:

@@ -17,7 +17,7 @@ from dataclasses import dataclass
 import numpy as np
 from pxr import Gf, Sdf
 
-from yellowiron.model.mechanism import Joint, Mechanism
+from yellowiron.model.mechanism import Joint, Mechanism, hanging
 from yellowiron.usd.authoring.metadata import set_custom
 from yellowiron.usd.authoring.stage import (
     Names,
@@ -58,9 +58,8 @@ def slewed_cuts(mechanism: Mechanism) -> tuple[Joint, ...]:
     tree = [joint for joint in mechanism.joints if not joint.cut]
     turned = {joint.body1 for joint in tree if joint.drive is not None and joint.drive.kind == "velocity"}
     turned |= {joint.body1 for joint in mechanism.joints if _slews(joint, mechanism)}
-    for _ in mechanism.bodies:
-        turned |= {joint.body1 for joint in tree if joint.body0 in turned}
-    return tuple(joint for joint in mechanism.joints if joint.cut and joint.body0 in turned)
+    carried = hanging(mechanism, turned)
+    return tuple(joint for joint in mechanism.joints if joint.cut and joint.body0 in carried)
 
 
 def _slews(joint: Joint, mechanism: Mechanism) -> bool:
