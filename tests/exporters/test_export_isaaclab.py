@@ -51,11 +51,6 @@ def made(isaaclab: None, usd_file: Path, tmp_path: Path) -> dict[str, Any]:
     return runpy.run_path(str(export(read_mechanism(usd_file), usd_file, tmp_path / "lab", to="isaaclab")))
 
 
-@pytest.fixture
-def mechanism(usd_file: Path) -> Mechanism:
-    return read_mechanism(usd_file)
-
-
 def test_every_joint_of_the_tree_is_in_one_group_as_isaac_lab_matches_them(
     made: dict[str, Any], mechanism: Mechanism
 ) -> None:

@@ -18,11 +18,6 @@ from yellowiron.usd import read_mechanism
 
 
 @pytest.fixture(scope="module")
-def mechanism(usd_file: Path) -> Mechanism:
-    return read_mechanism(usd_file)
-
-
-@pytest.fixture(scope="module")
 def model(mjcf_file: Path) -> mujoco.MjModel:
     return mujoco.MjModel.from_xml_path(str(mjcf_file))
 

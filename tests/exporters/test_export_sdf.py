@@ -20,14 +20,8 @@ from yellowiron.exporters.sdf.drake import export_drake
 from yellowiron.exporters.sdf.gazebo import export_sdf
 from yellowiron.kinematics import complete
 from yellowiron.model.mechanism import Mechanism
-from yellowiron.usd import read_mechanism
 
 NAMESPACE = "{http://drake.mit.edu}"
-
-
-@pytest.fixture(scope="module")
-def mechanism(usd_file: Path) -> Mechanism:
-    return read_mechanism(usd_file)
 
 
 @pytest.fixture(scope="module")

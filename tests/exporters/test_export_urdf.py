@@ -29,11 +29,6 @@ from yellowiron.usd import read_mechanism
 
 
 @pytest.fixture(scope="module")
-def mechanism(usd_file: Path) -> Mechanism:
-    return read_mechanism(usd_file)
-
-
-@pytest.fixture(scope="module")
 def urdf(usd_file: Path, mechanism: Mechanism, tmp_path_factory: pytest.TempPathFactory) -> Path:
     return export(mechanism, usd_file, tmp_path_factory.mktemp("urdf"), to="urdf")
 

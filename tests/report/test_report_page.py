@@ -40,6 +40,14 @@ def test_every_name_is_in_one_row(names: list[str]) -> None:
     assert places == list(range(len(names)))
 
 
+def test_a_cylinder_pushes_and_pulls_with_forces_of_its_own() -> None:
+    drive = {"kind": "position", "max_force": 1109770.0, "reverse_force": 710251.0}
+    both = {"kind": "velocity", "max_force": 35000.0, "reverse_force": None}
+    joints = [joint("slide_joint", type="prismatic", drive=drive), joint("wheel_joint", drive=both)]
+    said = [row["drive"] for row in joint_rows({"joints": joints, "actuators": []})]
+    assert said == ["position, 1110 kN out, 710.3 kN in", "velocity, 35000 N⋅m"]
+
+
 def test_a_row_of_joints_is_one_entry_and_one_label() -> None:
     joints = [joint("boom_joint", cut=True, lower=-0.5, upper=1.0)]
     joints += [joint(f"shoe_joint_{n}", anchor=(n, 0, 0)) for n in range(1, 50)]

@@ -53,7 +53,7 @@ def _row(number: int, name: str, joints: Sequence[Mapping[str, Any]], levers: Ma
         "free": first["free"] and not many,
         "anchors": [joint["anchor"] for joint in joints],
         "range": spans[0] if len(spans) == 1 else "each its own",
-        "drive": f"{drive['kind']}, {shown(drive['max_force'], force_unit, digits=4)}" if drive else _led(joints),
+        "drive": _drive(drive, force_unit) if drive else _led(joints),
         "source": joint_evidence(first["source"], levers),
         "lever": levers.get(first["name"], name),
         "values": _limiting(first["source"]),
@@ -64,6 +64,14 @@ def _limiting(source: Mapping[str, Any]) -> list[str]:
     """The sheet's values that limit a joint, without their signs."""
     named = [str(source.get(f"{end}_specification") or "").lstrip("-− ") for end in ("lower", "upper")]
     return [name for name in dict.fromkeys(named) if name]
+
+
+def _drive(drive: Mapping[str, Any], unit: str) -> str:
+    """`position, 1110 kN out, 710 kN in`: a cylinder pushes and pulls with forces of its own."""
+    out, back = drive["max_force"], drive.get("reverse_force")
+    if back is None or back == out:
+        return f"{drive['kind']}, {shown(out, unit, digits=4)}"
+    return f"{drive['kind']}, {shown(out, unit, digits=4)} out, {shown(back, unit, digits=4)} in"
 
 
 def _led(joints: Sequence[Mapping[str, Any]]) -> str:
