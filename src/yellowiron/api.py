@@ -191,9 +191,15 @@ def simulate(
 
 
 def export(
-    machine: Machine | Path | str, out: Path | str, *, to: str = "mjcf", progress: Progress = lambda words: None
+    machine: Machine | Path | str,
+    out: Path | str,
+    *,
+    to: str = "mjcf",
+    detail: str = "full",
+    progress: Progress = lambda words: None,
 ) -> Path:
-    """The same machine for another simulator, in the folder `out`: the path of the file to open there."""
+    """The same machine for another simulator, in the folder `out`: the path of the file to open there. `detail` of its
+    colliders: `full`, `light` (few simple ones; MJCF has no others to see) or `visual` (none)."""
     from yellowiron import exporters, usd
 
     title = exporters.find_exporter(to).title
@@ -201,7 +207,7 @@ def export(
     keep_apart(Path(out), [file])
     with output_folder(Path(out)) as folder:
         progress(f"Writing {title}")
-        inside = exporters.export(usd.read_mechanism(file), file, folder, to=to).relative_to(folder)
+        inside = exporters.export(usd.read_mechanism(file), file, folder, to=to, detail=detail).relative_to(folder)
     return Path(out) / inside
 
 

@@ -101,13 +101,16 @@ def export(
     machine: Annotated[Path, typer.Argument(metavar="FILE.usd", help="A machine that build wrote.")],
     to: Annotated[str, typer.Option("--to", help="mjcf, urdf, sdf, drake or isaaclab.")],
     out: Annotated[Path, typer.Option("--out", help="The folder to write to.")],
+    detail: Annotated[
+        str, typer.Option("--detail", help="Of its colliders: full, light (few, for learning) or visual (none).")
+    ] = "full",
 ) -> None:
     """Write the same machine for another simulator."""
     from yellowiron.exporters import find_exporter, unsaid
     from yellowiron.usd import read_mechanism
 
     with progress_shown() as progress:
-        written = yellowiron.export(machine, out, to=to, progress=progress)
+        written = yellowiron.export(machine, out, to=to, detail=detail, progress=progress)
     scene = find_exporter(to).scene
     files = {"machine": str(written), **({"scene": str(out / scene)} if scene else {})}
     said = f"{written}; {scene} beside it is the machine on the ground" if scene else str(written)

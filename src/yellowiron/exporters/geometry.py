@@ -12,7 +12,7 @@ from pxr import Gf, Tf, Usd, UsdGeom, UsdPhysics, UsdShade
 
 from yellowiron.model.errors import YellowironError
 from yellowiron.model.geometry import Color, Floats, Mesh
-from yellowiron.support.record import RECORD
+from yellowiron.support.record import DETAIL, DETAILS, RECORD
 from yellowiron.support.vectors import triple
 
 _NEUTRAL: Color = (0.5, 0.5, 0.5)
@@ -61,14 +61,21 @@ class Geometry:
 
     bodies: Mapping[str, BodyGeometry] = field(default_factory=dict)
     filtered: tuple[tuple[str, str], ...] = ()
+    detail: str = DETAILS[0]
 
 
-def read_geometry(path: str | Path | Geometry) -> Geometry:
-    """The geometry of the machine in a USD file (or in a scene that holds one), its physics switched on; one that was
-    read before is itself.
+def read_geometry(path: str | Path | Geometry, *, detail: str = DETAILS[0]) -> Geometry:
+    """The geometry of the machine in a USD file (or in a scene that holds one), its physics switched on and its
+    colliders in that `detail`, whatever the file selects; one that was read before is itself.
 
-    `YellowironError` where the file does not open or holds no machine of ours.
+    `YellowironError` where the file does not open or holds no machine of ours, or there is no such detail.
     """
+    if detail not in DETAILS:
+        raise YellowironError(
+            f"There is no detail '{detail}'",
+            where="--detail",
+            hint=f"Choose {', '.join(DETAILS[:-1])} or {DETAILS[-1]}.",
+        )
     if isinstance(path, Geometry):
         return path
     try:
@@ -78,8 +85,9 @@ def read_geometry(path: str | Path | Geometry) -> Geometry:
             "The file cannot be read as USD", where=str(path), hint="It is damaged or no USD; write it again."
         ) from error
     with Usd.EditContext(stage, stage.GetSessionLayer()):
-        for prim in [p for p in stage.Traverse() if p.GetVariantSets().HasVariantSet("Physics")]:
-            prim.GetVariantSet("Physics").SetVariantSelection("on")
+        for name, choice in (("Physics", "on"), (DETAIL, detail)):
+            for prim in [p for p in stage.Traverse() if p.GetVariantSets().HasVariantSet(name)]:
+                prim.GetVariantSet(name).SetVariantSelection(choice)
     bodies = {str(data["name"]): prim for prim, data in _described(stage) if data.get("kind") == "body"}
     if not bodies:
         raise YellowironError(
@@ -96,7 +104,7 @@ def read_geometry(path: str | Path | Geometry) -> Geometry:
         for target in UsdPhysics.FilteredPairsAPI(prim).GetFilteredPairsRel().GetTargets()
         if target in names
     ]
-    return Geometry({name: reader.body(prim) for name, prim in bodies.items()}, tuple(pairs))
+    return Geometry({name: reader.body(prim) for name, prim in bodies.items()}, tuple(pairs), detail)
 
 
 def _described(stage: Usd.Stage) -> Iterator[tuple[Usd.Prim, Mapping[str, object]]]:

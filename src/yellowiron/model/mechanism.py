@@ -35,7 +35,7 @@ STATED = "template states "
 @dataclass(frozen=True)
 class BodyPart:
     """A CAD part as it moves with a body: its material (a key of `Mechanism.materials`), its collision approximation
-    and where these came from."""
+    and where these came from. A `pooled` one need not collide by itself: its body's colliders stand for it."""
 
     part: str
     role: str | None
@@ -43,6 +43,7 @@ class BodyPart:
     collision: str
     mass: float
     source: str = ""
+    pooled: bool = False
 
 
 @dataclass(frozen=True)

@@ -2,3 +2,7 @@
 
 RECORD = "yellowiron"
 """The key of that record in a prim's `customData`."""
+
+DETAIL, DETAILS = "Detail", ("full", "light", "visual")
+"""The variant set of a machine's colliders, in its file and in what is exported of it: all of them, which is selected,
+few and simple ones, or none."""

@@ -200,6 +200,7 @@ class _Reader:
                     collision=str(data.get("collision", "")),
                     mass=float(data["mass"]),
                     source=str(data.get("source", "")),
+                    pooled=bool(data.get("pooled", False)),
                 )
 
     def _hull(self, body: Usd.Prim, origin: Floats) -> Floats:

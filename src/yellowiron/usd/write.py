@@ -17,7 +17,7 @@ from yellowiron.usd.authoring.materials import copy_textures, write_pictures
 from yellowiron.usd.authoring.stage import create_layer, define, save_layer
 from yellowiron.usd.layers.base import is_mirrored, write_bodies
 from yellowiron.usd.layers.brakes import write_brakes
-from yellowiron.usd.layers.geometry import write_hulls, write_mirrored, write_pieces, write_prototypes
+from yellowiron.usd.layers.geometry import write_hulls, write_mirrored, write_pieces, write_prototypes, write_solids
 from yellowiron.usd.layers.mujoco import write_mujoco
 from yellowiron.usd.layers.physics import write_physics
 from yellowiron.usd.layers.physx import write_physx
@@ -107,6 +107,7 @@ def _write_geometry(layer: Sdf.Layer, plan: Plan, textures: dict[str, str]) -> N
         define(layer, scope, "Scope")
     write_prototypes(layer, plan.prototypes, textures)
     placed = [p for body in plan.mechanism.bodies for p in plan.parts[body.name]]
-    write_mirrored(layer, (p for p in placed if p.approximation.usd and is_mirrored(p.matrix)))
+    write_mirrored(layer, (p for p in placed if p.collides and is_mirrored(p.matrix)))
     write_pieces(layer, ((p, is_mirrored(p.matrix)) for p in placed if p.pieces))
+    write_solids(layer, plan)
     write_hulls(layer, plan)

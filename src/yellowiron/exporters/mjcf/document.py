@@ -28,6 +28,8 @@ FREE_INTEGRATOR = "implicitfast"
 the mass it moves while the others stand, are unstable with `Euler` where that is many times the mass it moves alone."""
 ASSETS = "assets"
 GROUND_FRICTION = 0.7
+_BARE = "0.8 0.65 0.2 1"
+"""Of colliders that are all there is to see."""
 
 _JOINTS = {"revolute": "hinge", "prismatic": "slide", "spherical": "ball"}
 _FAR = 1e6
@@ -48,7 +50,8 @@ def export_mjcf(
     `geometry` is the machine's USD file, or what `read_geometry` made of one. Positions are metres in the drawn pose,
     where all coordinates and controls are 0; controls are an actuator's coordinate: metres of its driven slide, rad/s
     of a motor. The machine does not collide with itself: give `conaffinity="1"` to its `collision` class to change
-    that; bodies that are jointed or overlap as drawn are excluded all the same.
+    that; bodies that are jointed or overlap as drawn are excluded all the same. Of a geometry in light
+    detail the colliders are what is seen, too.
 
     Raises `MechanismError` where the joints are no tree with cuts.
     """
@@ -84,6 +87,7 @@ class _Document:
         self._colors: dict[Color, str] = {}
         self._geoms: set[str] = set()
         self._pieces = ConvexPieces()
+        self._drawn_apart = geometry.detail != "light"
         self._order: list[Joint] = []
         self._drawn: list[float] = []
         self._chained = chained(mechanism)
@@ -131,7 +135,10 @@ class _Document:
         visual = ET.SubElement(inner, "default", {"class": "visual"})
         ET.SubElement(visual, "geom", type="mesh", contype="0", conaffinity="0", group="2", mass="0")
         collision = ET.SubElement(inner, "default", {"class": "collision"})
-        ET.SubElement(collision, "geom", contype="1", conaffinity="0", group="3", mass="0")
+        touched = ET.SubElement(collision, "geom", contype="1", conaffinity="0", group="3", mass="0")
+        if not self._drawn_apart:
+            touched.set("group", "2")
+            touched.set("rgba", _BARE)
         return top
 
     def _asset(self) -> ET.Element:
@@ -204,7 +211,7 @@ class _Document:
             made.set(name, value)
 
     def _geometry_of(self, element: ET.Element, body: str, shapes: BodyGeometry) -> None:
-        for visual in shapes.visuals:
+        for visual in shapes.visuals if self._drawn_apart else ():
             mesh, position, rotation = placed(visual.mesh, visual.matrix)
             material = self._color(visual.color)
             for asset in self._assets.add(visual.name, mesh):

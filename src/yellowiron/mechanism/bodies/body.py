@@ -6,7 +6,7 @@ from collections.abc import Mapping, Sequence
 
 import numpy as np
 
-from yellowiron.mechanism.bodies.choice import Choice
+from yellowiron.mechanism.bodies.choice import BY_USER, Choice
 from yellowiron.mechanism.bodies.mass import Factor, Masses, Moments, combine
 from yellowiron.mechanism.placement import Placement
 from yellowiron.model.finding import Finding
@@ -63,6 +63,7 @@ def _part(row: int, placement: Placement, masses: Masses, factor: Factor, tokens
         collision=token,
         mass=masses.moments[row].mass * factor.value,
         source=f"material {material.source}; collision {told}",
+        pooled=not told.startswith(BY_USER),
     )
 
 

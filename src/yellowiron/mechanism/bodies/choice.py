@@ -11,6 +11,9 @@ from yellowiron.model.template import Template
 
 Entry = TypeVar("Entry")
 
+BY_USER = "data"
+"""How the words begin that name an entry of a user's document."""
+
 
 class Choice(Generic[Entry]):
     """Entries by CAD part name or role from a user's documents, and by role from the template.
@@ -29,7 +32,7 @@ class Choice(Generic[Entry]):
         """The entry for a part of that name and role, and which one it is in words; None where nothing speaks for
         it."""
         if (key := fold(part)) in self._documents:
-            return self._documents[key], f"data: part '{part}'"
+            return self._documents[key], f"{BY_USER}: part '{part}'"
         if role not in self._by_role:
             self._by_role[role] = self._of_role(role)
         return self._by_role[role]
@@ -38,7 +41,7 @@ class Choice(Generic[Entry]):
         above = ancestors(self._template, role)
         names = [*(name for r in above for name in (r.name, r.row) if name), "*"]
         for name in names:
-            for entries, origin in ((self._documents, "data"), (self._own, "template")):
+            for entries, origin in ((self._documents, BY_USER), (self._own, "template")):
                 if (key := fold(name)) in entries:
                     return entries[key], f"{origin}: {'role ' if name != '*' else ''}'{name}'"
         return None

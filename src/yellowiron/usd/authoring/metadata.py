@@ -8,7 +8,7 @@ import functools
 import json
 import types
 import typing
-from collections.abc import Mapping
+from collections.abc import Mapping, Sequence
 from dataclasses import fields, is_dataclass
 from typing import Any
 
@@ -79,7 +79,13 @@ def describe_part(part: BodyPart) -> dict[str, Any]:
         "collision": part.collision,
         "mass": float(part.mass),
         "source": part.source,
+        "pooled": part.pooled or None,
     }
+
+
+def describe_collider(parts: Sequence[str]) -> dict[str, Any]:
+    """The customData of a collider that stands for several CAD parts: their ids, largest first."""
+    return {"kind": "collider", "parts": Vt.StringArray(list(parts))}
 
 
 def describe_joint(joint: Joint, *, floating: bool = False) -> dict[str, Any]:

@@ -3,6 +3,8 @@
 from __future__ import annotations
 
 import functools
+from collections.abc import Iterator
+from dataclasses import replace
 from typing import Any
 
 import numpy as np
@@ -10,13 +12,16 @@ from pxr import Gf, Sdf, Vt
 
 from yellowiron.model.geometry import Floats
 from yellowiron.model.mechanism import Body, BodyShape, Site
-from yellowiron.usd.authoring.metadata import describe_body, describe_part, describe_site, set_custom
+from yellowiron.support.record import DETAIL, DETAILS
+from yellowiron.usd.authoring.metadata import describe_body, describe_collider, describe_part, describe_site, set_custom
 from yellowiron.usd.authoring.rotation import quaternion_of
 from yellowiron.usd.authoring.stage import (
     Types,
     add_reference,
+    declare_variants,
     define,
     identifier,
+    over,
     set_attribute,
     set_display_name,
     set_placement,
@@ -24,13 +29,20 @@ from yellowiron.usd.authoring.stage import (
 )
 from yellowiron.usd.layers.geometry import mirrored_path, pieces_path
 from yellowiron.usd.planning.pin_links import write_pin_frames
-from yellowiron.usd.planning.plan import COLLIDERS, GEOMETRY_FILE, HULL, VISUALS, PlacedPart, Plan
+from yellowiron.usd.planning.plan import (
+    COLLIDERS,
+    GEOMETRY_FILE,
+    HULL,
+    VISUALS,
+    PlacedPart,
+    Plan,
+    Solid,
+)
 from yellowiron.usd.planning.primitives import Primitive, fit_primitive
 
 SITE_RADIUS = 0.02
 """Of the ball that marks a site, metres."""
 
-_SCALE_TOLERANCE = 1e-6
 _PRIMITIVE_TYPES = {"cylinder": "Cylinder", "capsule": "Capsule", "box": "Cube", "sphere": "Sphere"}
 
 
@@ -50,11 +62,43 @@ def write_bodies(layer: Sdf.Layer, plan: Plan) -> None:
         _write_visuals(layer, path, plan.parts[body.name])
         _write_colliders(layer, path, plan.parts[body.name], primitives)
         _write_shapes(layer, path, body)
+        _write_solids(layer, plan, body.name)
         if len(body.hull):
             add_reference(define(layer, f"{path}/{HULL}"), f"./{GEOMETRY_FILE}", plan.hull_paths[body.name])
         for site in sites.get(body.name, ()):
             _write_site(layer, plan.site_paths[site.name], site, body)
     write_pin_frames(layer, plan.pin_links)
+
+
+def _write_solids(layer: Sdf.Layer, plan: Plan, body: str) -> None:
+    """The colliders that stand for several parts, each in its variant; in that of what is seen alone, none is active.
+    The machine's file selects."""
+    scope = f"{plan.body_paths[body]}/{COLLIDERS}"
+    found = list(solid_paths(plan, body))
+    if found:
+        _collider_scope(layer, plan.body_paths[body])
+    if layer.GetPrimAtPath(scope) is None:
+        return
+    declare_variants(over(layer, plan.root), DETAIL, DETAILS)
+    for path, solid in found:
+        if solid.data.primitive is not None:
+            _write_primitive(layer, path, solid.data.primitive)
+        else:
+            add_reference(define(layer, path, "Mesh"), f"./{GEOMETRY_FILE}", solid.path)
+        set_custom(over(layer, path), describe_collider(solid.data.parts))
+    over(layer, in_detail(plan, "visual", scope)).SetInfo("active", False)
+
+
+def solid_paths(plan: Plan, body: str) -> Iterator[tuple[str, Solid]]:
+    """The prims of a body's colliders that stand for several parts, inside the variants that they are of."""
+    for detail, solids in plan.solids.items():
+        for solid in solids[body]:
+            yield in_detail(plan, detail, f"{plan.body_paths[body]}/{COLLIDERS}/{solid.name}"), solid
+
+
+def in_detail(plan: Plan, detail: str, path: str) -> str:
+    """A path under the machine's prim, inside that variant of `Detail`."""
+    return f"{plan.root}{{{DETAIL}={detail}}}{path[len(plan.root) + 1 :]}"
 
 
 def _write_visuals(layer: Sdf.Layer, body: str, parts: tuple[PlacedPart, ...]) -> None:
@@ -72,37 +116,38 @@ def _write_visuals(layer: Sdf.Layer, body: str, parts: tuple[PlacedPart, ...]) -
 def _write_colliders(
     layer: Sdf.Layer, body: str, parts: tuple[PlacedPart, ...], primitives: functools._lru_cache_wrapper[Any]
 ) -> None:
-    """Collider shapes, hidden as guides: analytic ones as their own prims, the others as references to meshes."""
-    colliding = [placed for placed in parts if placed.approximation.usd]
+    """Colliders of parts by themselves: analytic ones as their own prims, the others as references to meshes."""
+    colliding = [placed for placed in parts if placed.collides]
     if not colliding:
         return
-    scope = define(layer, f"{body}/{COLLIDERS}", "Scope")
-    set_attribute(scope, "purpose", Types.Token, "guide", uniform=True)
+    _collider_scope(layer, body)
     for placed in colliding:
         path = f"{body}/{COLLIDERS}/{placed.name}"
-        scale = uniform_scale(placed.matrix)
         primitive = None
-        if placed.approximation.token == "analytic" and scale is not None:
-            primitive = primitives(placed.prototype.shape)
-        if primitive is not None and scale is not None:
-            _write_primitive(layer, path, primitive, placed.matrix, scale)
+        if placed.approximation.token == "analytic" and (fitted := primitives(placed.prototype.shape)) is not None:
+            primitive = fitted.placed(placed.matrix)
+        if primitive is not None:
+            _write_primitive(layer, path, primitive)
         else:
             _write_mesh_collider(layer, path, placed)
+
+
+def _collider_scope(layer: Sdf.Layer, body: str) -> None:
+    """The scope of a body's colliders, hidden as guides."""
+    if layer.GetPrimAtPath(f"{body}/{COLLIDERS}") is None:
+        scope = define(layer, f"{body}/{COLLIDERS}", "Scope")
+        set_attribute(scope, "purpose", Types.Token, "guide", uniform=True)
 
 
 def _write_shapes(layer: Sdf.Layer, path: str, body: Body) -> None:
     """A body's own colliders, which no CAD part has: balls and boxes."""
     if not body.shapes:
         return
-    set_attribute(define(layer, f"{path}/{COLLIDERS}", "Scope"), "purpose", Types.Token, "guide", uniform=True)
+    _collider_scope(layer, path)
     for shape in body.shapes:
-        place = np.eye(4)
-        place[:3, 3] = np.asarray(shape.center) - np.asarray(body.origin)
-        if shape.size is None:
-            primitive = Primitive("sphere", np.zeros(3), np.eye(3), (float(shape.radius),))
-        else:
-            primitive = Primitive("box", np.zeros(3), np.eye(3), shape.size)
-        _write_primitive(layer, shape_path(path, shape), primitive, place, 1.0)
+        primitive = Primitive.of(shape)
+        own = replace(primitive, center=primitive.center - np.asarray(body.origin))
+        _write_primitive(layer, shape_path(path, shape), own)
 
 
 def shape_path(body: str, shape: BodyShape) -> str:
@@ -122,14 +167,6 @@ def _determinant(matrix: Floats) -> float:
     )
 
 
-def uniform_scale(matrix: Floats) -> float | None:
-    """The one factor by which a transform scales (mirrored or not), or None where the axes differ or shear."""
-    linear = matrix[:3, :3]
-    factor = abs(_determinant(matrix)) ** (1.0 / 3.0)
-    off = np.abs(linear.T @ linear - factor**2 * np.eye(3)).max()
-    return factor if factor > 0.0 and off <= _SCALE_TOLERANCE * factor**2 else None
-
-
 def _write_mesh_collider(layer: Sdf.Layer, path: str, placed: PlacedPart) -> None:
     """The part's mesh, or a group of its pieces. Of a mirrored part the mirror image, so that no transform reflects."""
     spec = define(layer, path, "Xform" if placed.pieces else "Mesh")
@@ -142,15 +179,11 @@ def _write_mesh_collider(layer: Sdf.Layer, path: str, placed: PlacedPart) -> Non
     set_transform(spec, placed.matrix @ np.diag([-1.0, 1.0, 1.0, 1.0]) if mirrored else placed.matrix)
 
 
-def _write_primitive(layer: Sdf.Layer, path: str, primitive: Primitive, matrix: Floats, scale: float) -> None:
-    """An analytic collider. Its frame is a proper rotation: a primitive is its own mirror image."""
+def _write_primitive(layer: Sdf.Layer, path: str, primitive: Primitive) -> None:
+    """An analytic collider in its body's frame."""
     spec = define(layer, path, _PRIMITIVE_TYPES[primitive.kind])
-    rotation = matrix[:3, :3] @ primitive.rotation / scale
-    if np.linalg.det(rotation) < 0.0:
-        rotation = rotation * (-1.0, 1.0, 1.0)
-    center = matrix[:3, :3] @ primitive.center + matrix[:3, 3]
-    quaternion = quaternion_of(rotation) if primitive.kind != "sphere" else None
-    size = [scale * edge for edge in primitive.size]
+    center, size = primitive.center, primitive.size
+    quaternion = quaternion_of(primitive.rotation) if primitive.kind != "sphere" else None
     if primitive.kind == "box":
         set_attribute(spec, "size", Types.Double, 1.0)
         set_placement(spec, center, quaternion, (size[0], size[1], size[2]))

@@ -21,7 +21,7 @@ from yellowiron.usd.authoring.stage import (
     set_attribute,
     set_display_name,
 )
-from yellowiron.usd.planning.plan import MESH, PIECE, PlacedPart, Plan, Prototype
+from yellowiron.usd.planning.plan import MESH, PIECE, SOLIDS, PlacedPart, Plan, Prototype
 
 CREASE_ANGLE = np.radians(30.0)
 """Facets that meet at less than this angle are shaded as one smooth surface, where the CAD reader gave no normals."""
@@ -115,6 +115,30 @@ def write_pieces(layer: Sdf.Layer, placed: Iterable[tuple[PlacedPart, bool]]) ->
         for number, piece in enumerate(item.pieces, start=1):
             made = Mesh(piece.points * (-1.0, 1.0, 1.0), piece.triangles[:, ::-1]) if mirrored else piece
             write_mesh(define(layer, f"{path}/{PIECE}{number}", "Mesh"), item.prototype.shape, made)
+
+
+def write_solids(layer: Sdf.Layer, plan: Plan) -> None:
+    """The meshes of the colliders that stand for several parts, in their bodies' frames."""
+    for by_body in plan.solids.values():
+        for solids in by_body.values():
+            for solid in solids:
+                if solid.data.primitive is None:
+                    if layer.GetPrimAtPath(SOLIDS) is None:
+                        define(layer, SOLIDS, "Scope")
+                    _write_surface(define(layer, solid.path, "Mesh"), solid.data.solid.mesh)
+
+
+def _write_surface(spec: Sdf.PrimSpec, mesh: Mesh) -> None:
+    """A triangle mesh that nobody sees."""
+    points = mesh.points.astype(np.float32)
+    set_attribute(spec, "points", Types.Point3fArray, Vt.Vec3fArray.FromNumpy(points))
+    counts = np.full(len(mesh.triangles), 3, dtype=np.int32)
+    set_attribute(spec, "faceVertexCounts", Types.IntArray, Vt.IntArray.FromNumpy(counts))
+    indices = np.ascontiguousarray(mesh.triangles, dtype=np.int32).ravel()
+    set_attribute(spec, "faceVertexIndices", Types.IntArray, Vt.IntArray.FromNumpy(indices))
+    set_attribute(spec, "subdivisionScheme", Types.Token, "none", uniform=True)
+    extent = Vt.Vec3fArray([Gf.Vec3f(*points.min(axis=0).tolist()), Gf.Vec3f(*points.max(axis=0).tolist())])
+    set_attribute(spec, "extent", Types.Float3Array, extent)
 
 
 def write_hulls(layer: Sdf.Layer, plan: Plan) -> None:

@@ -16,7 +16,7 @@ from yellowiron.model.mechanism import Body, Joint
 from yellowiron.model.template import Follows, by_first_leader
 from yellowiron.usd.authoring.stage import Types, apply_schemas, over, set_attribute, set_targets
 from yellowiron.usd.layers.articulation import articulation_roots
-from yellowiron.usd.layers.base import shape_path
+from yellowiron.usd.layers.base import shape_path, solid_paths
 from yellowiron.usd.layers.drives import speed_limit, to_usd_unit
 from yellowiron.usd.layers.joints import usd_type
 from yellowiron.usd.planning.plan import COLLIDERS, Plan
@@ -97,8 +97,9 @@ def _write_priorities(layer: Sdf.Layer, plan: Plan, body: Body, ruling: Containe
     """Colliders of a body whose material is a `ruling` one rule by priority."""
     home = plan.body_paths[body.name]
     own = [(shape_path(home, s), s.material) for s in body.shapes]
-    drawn = [(f"{home}/{COLLIDERS}/{p.name}", p.data.material) for p in plan.parts[body.name] if p.approximation.usd]
-    for path, material in (*own, *drawn):
+    drawn = [(f"{home}/{COLLIDERS}/{p.name}", p.data.material) for p in plan.parts[body.name] if p.collides]
+    pooled = [(path, solid.data.material) for path, solid in solid_paths(plan, body.name)]
+    for path, material in (*own, *drawn, *pooled):
         if material in ruling:
             spec = over(layer, path)
             apply_schemas(spec, "MjcCollisionAPI")

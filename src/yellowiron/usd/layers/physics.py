@@ -10,7 +10,7 @@ from yellowiron.usd.authoring.materials import write_physics_material
 from yellowiron.usd.authoring.rotation import principal_axes
 from yellowiron.usd.authoring.stage import Types, apply_schemas, define, over, set_attribute, set_targets
 from yellowiron.usd.layers.articulation import articulation_roots
-from yellowiron.usd.layers.base import shape_path
+from yellowiron.usd.layers.base import shape_path, solid_paths
 from yellowiron.usd.layers.joints import write_joints
 from yellowiron.usd.planning.overlap import overlapping_bodies
 from yellowiron.usd.planning.pin_links import write_pin_links
@@ -29,8 +29,12 @@ def write_physics(layer: Sdf.Layer, base: Sdf.Layer, plan: Plan) -> None:
         apply_schemas(spec, "PhysicsRigidBodyAPI", "PhysicsMassAPI")
         write_mass(spec, body)
         for placed in plan.parts[body.name]:
-            if placed.approximation.usd:
+            if placed.collides:
                 _write_collider(layer, base, f"{spec.path}/{COLLIDERS}/{placed.name}", placed, plan)
+        for path, solid in solid_paths(plan, body.name):
+            _write_touching(over(layer, path), solid.data.material, plan)
+            if solid.data.primitive is None:
+                _write_approximation(over(layer, path), "convexHull")
         for shape in body.shapes:
             _write_touching(over(layer, shape_path(str(spec.path), shape)), shape.material, plan)
     _write_filtered_pairs(layer, plan)

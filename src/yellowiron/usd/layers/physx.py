@@ -68,7 +68,9 @@ def write_physx(layer: Sdf.Layer, base: Sdf.Layer, plan: Plan) -> None:
         for placed in plan.parts[body.name]:
             path = f"{plan.body_paths[body.name]}/{COLLIDERS}/{placed.name}"
             chosen = placed.approximation
-            if not chosen.physx_schema or not (placed.pieces or base.GetPrimAtPath(path).typeName == "Mesh"):
+            if not placed.collides or not chosen.physx_schema:
+                continue
+            if not placed.pieces and base.GetPrimAtPath(path).typeName != "Mesh":
                 continue
             spec = over(layer, f"{path}/{MESH}" if placed.pieces else path)
             apply_schemas(spec, chosen.physx_schema)

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 from pxr import Gf, Sdf, Vt
 
+from yellowiron.support.record import DETAIL, DETAILS
 from yellowiron.usd.authoring.metadata import describe_machine, set_custom
 from yellowiron.usd.authoring.stage import (
     Names,
@@ -49,6 +50,8 @@ def write_machine_layer(layer: Sdf.Layer, plan: Plan) -> None:
     declare_variants(spec, "Base", BASES)
     declare_variants(spec, "Physics", ("on", "off"))
     spec.variantSelections.update({"Base": BASES[0], "Physics": "on"})
+    declare_variants(spec, DETAIL, DETAILS)
+    spec.variantSelections.update({DETAIL: DETAILS[0]})
     if has_brakes(plan.mechanism):
         declare_variants(spec, "Brakes", BRAKES)
         spec.variantSelections.update({"Brakes": BRAKES[0]})

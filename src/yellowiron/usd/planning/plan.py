@@ -12,15 +12,18 @@ from yellowiron.model.errors import MechanismError
 from yellowiron.model.geometry import Floats, Mesh, Shape
 from yellowiron.model.mechanism import Body, BodyPart, Mechanism
 from yellowiron.support.convex import convex_pieces
+from yellowiron.support.record import DETAILS
 from yellowiron.usd.authoring.materials import Look, look_of
 from yellowiron.usd.authoring.merge_points import weld
 from yellowiron.usd.authoring.stage import Names
 from yellowiron.usd.planning.collision import APPROXIMATIONS, Approximation, approximation
 from yellowiron.usd.planning.lathe_colliders import turned_pieces
 from yellowiron.usd.planning.pin_links import PinLink, plan_pin_links
+from yellowiron.usd.planning.primitives import Primitive
+from yellowiron.usd.planning.touching import POOLED, Pool, Touching, as_drawn, fine, light, solids_of, told_alone
 
 GEOMETRY_FILE = "geometry.usdc"
-PROTOTYPES, HULLS = "/Prototypes", "/Hulls"
+PROTOTYPES, HULLS, SOLIDS = "/Prototypes", "/Hulls", "/Colliders"
 VISUALS, COLLIDERS, HULL = "visuals", "colliders", "hull"
 MESH, PIECE = "mesh", "piece_"
 """Under a collider of several pieces: the part's own mesh, which does not collide, and the pieces, numbered from 1."""
@@ -51,6 +54,21 @@ class PlacedPart:
     matrix: Floats
     approximation: Approximation
     pieces: tuple[Mesh, ...] = ()
+    pooled: bool = False
+
+    @property
+    def collides(self) -> bool:
+        """Whether it has a collider of its own."""
+        return bool(self.approximation.usd) and not self.pooled
+
+
+@dataclass(frozen=True, eq=False)
+class Solid:
+    """A collider that stands for parts: `name` of its prim, `path` of its mesh in the geometry layer, body frame."""
+
+    name: str
+    path: str
+    data: Touching
 
 
 @dataclass(frozen=True, eq=False)
@@ -58,7 +76,8 @@ class Plan:
     """Paths by name. `root` is the machine's prim; `body_paths`, `joint_paths`, `site_paths`, `sensor_paths` (of
     sensors on bodies) and `material_paths` are
     absolute in the composed machine; `hull_paths` are in the geometry layer. `parts` holds each body's parts in the
-    mechanism's order, `pin_links` those of slewed cut pins."""
+    mechanism's order, `solids` by detail and body what stands for the pooled ones, `pin_links` those of slewed cut
+    pins."""
 
     mechanism: Mechanism
     root: str
@@ -70,6 +89,7 @@ class Plan:
     hull_paths: Mapping[str, str]
     parts: Mapping[str, tuple[PlacedPart, ...]]
     prototypes: tuple[Prototype, ...]
+    solids: Mapping[str, Mapping[str, tuple[Solid, ...]]]
     pin_links: tuple[PinLink, ...] = ()
 
     @property
@@ -86,7 +106,8 @@ def make_plan(mechanism: Mechanism, assembly: Assembly, frame: Floats, name: str
     root = "/" + Names().give(name)
     inner = Names(JOINTS, MATERIALS)
     body_paths = {body.name: f"{root}/{inner.give(body.name)}" for body in mechanism.bodies}
-    joint_names, material_names, hull_names = Names(BASE_JOINT), Names(), Names()
+    joint_names, material_names, home_names = Names(BASE_JOINT), Names(), Names()
+    homes = {body.name: home_names.give(body.name) for body in mechanism.bodies}
     joint_paths = {j.name: f"{root}/{JOINTS}/{joint_names.give(j.name)}" for j in mechanism.joints}
     placer = _Placer(mechanism, assembly, frame)
     parts = {body.name: placer.place(body) for body in mechanism.bodies}
@@ -101,11 +122,31 @@ def make_plan(mechanism: Mechanism, assembly: Assembly, frame: Floats, name: str
             s.name: f"{body_paths[s.body]}/{inside[s.body].give(s.name)}" for s in mechanism.sensors if s.body
         },
         material_paths={m: f"{root}/{MATERIALS}/{material_names.give(m)}" for m in mechanism.materials},
-        hull_paths={b.name: f"{HULLS}/{hull_names.give(b.name)}" for b in mechanism.bodies},
+        hull_paths={name: f"{HULLS}/{home}" for name, home in homes.items()},
         parts=parts,
         prototypes=tuple(placer.prototypes.prototypes),
+        solids=_solids(mechanism, placer.pool, parts, homes),
         pin_links=tuple(plan_pin_links(mechanism, root, inner, f"{root}/{JOINTS}", joint_names)),
     )
+
+
+def _solids(
+    mechanism: Mechanism, pool: Pool, parts: Mapping[str, tuple[PlacedPart, ...]], homes: Mapping[str, str]
+) -> dict[str, dict[str, tuple[Solid, ...]]]:
+    """The colliders of the pooled parts, full and light, in their bodies' frames."""
+    full = fine(mechanism, pool)
+    found: dict[str, dict[str, tuple[Solid, ...]]] = {}
+    for detail, made in zip(DETAILS, (full, light(mechanism, full)), strict=False):
+        found[detail] = {}
+        for body in mechanism.bodies:
+            names = Names(*(p.name for p in parts[body.name] if p.collides), *(s.name for s in body.shapes))
+            solids = []
+            for one in made.get(body.name, ()):
+                name = names.give(one.label)
+                path = f"{SOLIDS}/{homes[body.name]}/{detail}_{name}"
+                solids.append(Solid(name, path, one.shifted(-np.asarray(body.origin))))
+            found[detail][body.name] = tuple(solids)
+    return found
 
 
 class Prototypes:
@@ -141,7 +182,11 @@ class _Placer:
         self._frame = frame
         self._parts = {part.id: part for part in assembly.parts}
         self._pieces: dict[str, tuple[Mesh, ...]] = {}
+        self._solids: dict[tuple[str, str], tuple[Mesh | Primitive, ...]] = {}
+        self._alone = told_alone(mechanism)
         self.prototypes = Prototypes()
+        self.pool: Pool = {}
+        """What the pooled parts would collide as by themselves, machine frame."""
 
     def place(self, body: Body) -> tuple[PlacedPart, ...]:
         names = Names()
@@ -165,23 +210,38 @@ class _Placer:
                     hint=f"Known: {', '.join(self._mechanism.materials) or 'none'}.",
                 )
             shape = self._assembly.shape_of(part)
-            chosen, pieces = self._collision(data, shape)
+            name = names.give(part.name or shape.name or "part")
+            asked = approximation(data.collision, where=data.part)
+            pooled = data.pooled and asked.token in POOLED and body.name not in self._alone
+            if pooled:
+                self._fill_pool(body.name, name, data, part, shape, asked.token)
+            chosen, pieces = (asked, ()) if pooled else self._collision(asked, shape)
             placed.append(
                 PlacedPart(
-                    name=names.give(part.name or shape.name or "part"),
+                    name=name,
                     part=part,
                     data=data,
                     prototype=self.prototypes.give(shape, look_of(part.color, shape, material)),
                     matrix=to_body @ part.transform,
                     approximation=chosen,
                     pieces=pieces,
+                    pooled=pooled,
                 )
             )
         return tuple(placed)
 
-    def _collision(self, data: BodyPart, shape: Shape) -> tuple[Approximation, tuple[Mesh, ...]]:
+    def _fill_pool(self, body: str, name: str, data: BodyPart, part: Part, shape: Shape, token: str) -> None:
+        if not len(shape.mesh.points):
+            return
+        key = (shape.key, token)
+        if key not in self._solids:
+            self._solids[key] = solids_of(shape, token)
+        matrix = self._frame @ part.transform
+        drawn = as_drawn(self._solids[key], matrix, label=name, material=data.material, part=part.id)
+        self.pool.setdefault(body, []).extend(drawn)
+
+    def _collision(self, asked: Approximation, shape: Shape) -> tuple[Approximation, tuple[Mesh, ...]]:
         """The approximation asked for, and its pieces; where one piece stands for a part, it is its hull."""
-        asked = approximation(data.collision, where=data.part)
         if asked.token not in ("convexDecomposition", "turned"):
             return asked, ()
         key = f"{asked.token} {shape.key}"

@@ -1,0 +1,209 @@
+"""Convex solids by their planes: what lies inside them, how far what they do not cover stands out, fewer of them."""
+
+from __future__ import annotations
+
+import functools
+import heapq
+import itertools
+from collections.abc import Iterable, Sequence
+from dataclasses import dataclass
+
+import numpy as np
+from numpy.typing import NDArray
+
+from yellowiron.model.geometry import Floats, Mesh
+from yellowiron.support.convex import hull
+
+CORNERS = 64
+"""Of a hull: PhysX cooks no more for a GPU."""
+THINNEST = 5e-3
+"""Metres: a hull that is thinner is given this thickness; thinner ones are flat to some engines."""
+_SPACING = 2.0
+"""Points by which a surface is judged are this many tolerances apart at most …"""
+_FINEST = 0.02
+"""… and no less than this, metres."""
+_ROUGH = 1.0
+"""Metres apart: no more than a triangle's middle, but where it is large."""
+_MOST = 12
+"""Points along a triangle's edge."""
+
+
+@dataclass(frozen=True, eq=False)
+class Convex:
+    """A convex solid, metres: its `corners` (n, 3), `triangles` (m, 3) outwards, and `planes` (k, 4): a point x is
+    inside where planes[:, :3] @ x + planes[:, 3] ≤ 0. `low` and `high` are the corners of its box."""
+
+    corners: Floats
+    triangles: NDArray[np.int32]
+    planes: Floats
+    volume: float
+
+    @functools.cached_property
+    def low(self) -> Floats:
+        """(3,) metres."""
+        return np.asarray(self.corners.min(axis=0))
+
+    @functools.cached_property
+    def high(self) -> Floats:
+        """(3,) metres."""
+        return np.asarray(self.corners.max(axis=0))
+
+    @property
+    def mesh(self) -> Mesh:
+        """Its surface."""
+        return Mesh(self.corners, self.triangles)
+
+    def beyond(self, points: Floats) -> Floats:
+        """(n,) metres by which points (n, 3) are outside its farthest plane, negative inside: over a face that is the
+        distance, over an edge or a corner less."""
+        return np.asarray((points @ self.planes[:, :3].T + self.planes[:, 3]).max(axis=1), dtype=np.float64)
+
+    def shifted(self, by: Floats) -> Convex:
+        """The solid moved by (3,) metres."""
+        planes = self.planes.copy()
+        planes[:, 3] -= planes[:, :3] @ by
+        return Convex(self.corners + by, self.triangles, planes, self.volume)
+
+    def surface(self, spacing: float) -> Floats:
+        """(n, 3) points on its surface, corners among them, `spacing` metres apart at most (large faces: coarser)."""
+        a, b, c = (self.corners[self.triangles[:, k]] for k in range(3))
+        longest = np.max([np.linalg.norm(p - q, axis=1) for p, q in ((a, b), (b, c), (c, a))], axis=0)
+        parts = np.clip(np.ceil(longest / spacing).astype(int), 1, _MOST)
+        found = [self.corners]
+        for n in np.unique(parts).tolist():
+            rows = [(i, j, n - i - j) for i in range(n + 1) for j in range(n + 1 - i)] if n > 1 else [(1, 1, 1)]
+            weights = np.array(rows) / sum(rows[0])
+            found.append(np.einsum("wk,mkd->mwd", weights, np.stack([a, b, c], axis=1)[parts == n]).reshape(-1, 3))
+        return np.concatenate(found)
+
+
+def convex(points: Floats) -> Convex:
+    """The hull of points (n, 3), which is no thinner than `THINNEST`."""
+    made = _solid(points)
+    breadths = np.ptp(made.corners @ made.planes[:, :3].T, axis=0)
+    thinnest = int(np.argmin(breadths))
+    if breadths[thinnest] < THINNEST:
+        lift = 0.5 * (THINNEST - breadths[thinnest]) * made.planes[thinnest, :3]
+        made = _solid(np.concatenate([made.corners + lift, made.corners - lift]))
+    return made
+
+
+def _solid(points: Floats) -> Convex:
+    mesh = hull(points)
+    a, b, c = (mesh.points[mesh.triangles[:, k]] for k in range(3))
+    normals = np.cross(b - a, c - a)
+    length = np.linalg.norm(normals, axis=1)
+    sound = length > 1e-12 * max(float(length.max(initial=0.0)), 1e-300)
+    normals = normals[sound] / length[sound, None]
+    offsets = -np.einsum("ij,ij->i", normals, a[sound])
+    planes = np.unique(np.column_stack([normals, offsets]).round(9), axis=0)
+    middle = mesh.points.mean(axis=0)
+    volume = float(np.einsum("ij,ij->", np.cross(a - middle, b - middle), c - middle)) / 6.0
+    return Convex(mesh.points, mesh.triangles, planes, volume)
+
+
+def with_few_corners(solid: Convex, most: int = CORNERS) -> Convex:
+    """The hull of at most so many of its corners: the outermost along the axes, then always the one that stands out
+    most of the hull of those taken."""
+    if len(solid.corners) <= most:
+        return solid
+    points = solid.corners
+    taken = sorted({int(i) for i in (*points.argmin(axis=0), *points.argmax(axis=0))})
+    while len(taken) < 4 or np.linalg.matrix_rank(points[taken] - points[taken[0]], tol=1e-9) < 3:
+        taken.append(_farthest(points, taken))
+    made = _solid(points[taken])
+    while len(taken) < most:
+        beyond = made.beyond(points)
+        # A few at a time: each is the farthest out of what another of them does not bring in.
+        fresh = [i for i in np.argsort(-beyond, kind="stable").tolist() if beyond[i] > 1e-6][: max(1, most // 8)]
+        apart = [i for n, i in enumerate(fresh) if n == 0 or _apart(points, i, fresh[:n], beyond)]
+        if not apart:
+            break
+        taken += apart[: most - len(taken)]
+        made = _solid(points[taken])
+    return made
+
+
+def _farthest(points: Floats, taken: Sequence[int]) -> int:
+    basis = points[list(taken)]
+    offset = points - basis[0]
+    _, sizes, axes = np.linalg.svd(basis - basis[0], full_matrices=False)
+    kept = axes[sizes > 1e-9]
+    away = np.linalg.norm(offset - offset @ kept.T @ kept, axis=1)
+    return int(np.argmax(away))
+
+
+def _apart(points: Floats, one: int, others: Sequence[int], beyond: Floats) -> bool:
+    return bool(np.linalg.norm(points[list(others)] - points[one], axis=1).min() > 4.0 * float(beyond[one]))
+
+
+def uncovered(points: Floats, solids: Iterable[Convex], within: float) -> NDArray[np.bool_]:
+    """Which of the points (n, 3) are in none of the solids, nor as near as `within` (metres) to one."""
+    open_ = np.ones(len(points), dtype=bool)
+    for solid in solids:
+        rows = np.flatnonzero(open_)
+        if not len(rows):
+            break
+        left = points[rows]
+        near = np.flatnonzero(((left > solid.low - within) & (left < solid.high + within)).all(axis=1))
+        open_[rows[near[solid.beyond(left[near]) <= within]]] = False
+    return open_
+
+
+def spacing_of(within: float) -> float:
+    """How far apart the points are by which a tolerance is judged, metres."""
+    return max(_SPACING * within, _FINEST)
+
+
+def touch(one: Convex, other: Convex, within: float) -> bool:
+    """Whether their boxes come as near to each other as `within`, metres."""
+    return bool((one.low <= other.high + within).all() and (other.low <= one.high + within).all())
+
+
+def interpenetrate(one: Convex, other: Convex, depth: float) -> bool:
+    """Whether a ball of that radius (metres) has room in both: by a linear program over their planes."""
+    from scipy.optimize import linprog
+
+    if not touch(one, other, -2.0 * depth):
+        return False
+    planes = np.concatenate([one.planes, other.planes])
+    rows = np.column_stack([planes[:, :3], np.ones(len(planes))])
+    made = linprog((0.0, 0.0, 0.0, -1.0), A_ub=rows, b_ub=-planes[:, 3], bounds=[(None, None)] * 3 + [(None, None)])
+    return made.status == 0 and made.x is not None and float(made.x[3]) > depth
+
+
+def _away(union: Convex, first: Convex, second: Convex, spacing: float) -> float:
+    """How far points of a hull's surface are from the nearer of the two that it is of, at most, metres."""
+    points = union.surface(spacing)
+    return float(np.minimum(first.beyond(points), second.beyond(points)).max())
+
+
+def merged(solids: Sequence[Convex], within: float) -> list[tuple[Convex, frozenset[int]]]:
+    """Fewer solids, each with the indices of those it stands for: two become their hull where no point of its surface
+    is farther than `within` (metres) from one of them, the pair with the least such distance first."""
+    members = {number: (solid, frozenset([number])) for number, solid in enumerate(solids)}
+    names = itertools.count(len(solids))
+    queue: list[tuple[float, int, int, int, Convex]] = []
+    tie = itertools.count()
+
+    def price(one: int, other: int) -> None:
+        first, second = members[one][0], members[other][0]
+        if touch(first, second, 2.0 * within):
+            union = _solid(np.concatenate([first.corners, second.corners]))
+            away = _away(union, first, second, _ROUGH)  # most are found out by few points
+            if away <= within:
+                away = _away(union, first, second, spacing_of(within))
+            if away <= within:
+                heapq.heappush(queue, (round(away, 9), one, other, next(tie), union))
+
+    for one, other in itertools.combinations(sorted(members), 2):
+        price(one, other)
+    while queue:
+        _, one, other, _, union = heapq.heappop(queue)
+        if one in members and other in members:
+            made = next(names)
+            stood_for = members.pop(one)[1] | members.pop(other)[1]
+            members[made] = (union, stood_for)
+            for known in sorted(members)[:-1]:
+                price(known, made)
+    return [members[name] for name in sorted(members)]

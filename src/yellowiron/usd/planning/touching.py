@@ -1,0 +1,244 @@
+"""What a body touches the world with: few convex solids that stand for its parts together.
+
+The template's approximation of a part (`collision`) says how that part would collide alone. Most of what is drawn
+touches nothing: bushes in their bosses, bolts, what stands under a hood. So the parts' solids are taken together, body
+by body. One that the others cover is left out, and two whose hull is hardly more than they are become that hull; then
+a body's colliders are as near to its parts' as `FINE` of its size. A part whose approximation a user's own document
+names is no member of this, nor is what runs in rings of track shoes: these collide as told.
+
+A solid is covered where no point of its surface stands out of the others of its body, and of those of the bodies that
+it is jointed to, in every one of several poses of these joints: a pin in its neighbour's boss, a piston in its barrel.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Iterable, Sequence
+from dataclasses import dataclass, replace
+
+import numpy as np
+
+from yellowiron.model.geometry import Floats, Mesh, Shape
+from yellowiron.model.mechanism import Joint, Mechanism, chained, rolling
+from yellowiron.support.convex import convex_pieces, hull
+from yellowiron.support.hulls import Convex, convex, merged, spacing_of, touch, uncovered, with_few_corners
+from yellowiron.usd.authoring.merge_points import weld
+from yellowiron.usd.planning.lathe_colliders import turned_pieces
+from yellowiron.usd.planning.primitives import Primitive, enclosing, fit_primitive
+
+POOLED = ("analytic", "convexDecomposition", "convexHull", "turned")
+"""The approximations whose solids are taken together."""
+FINE = 0.015
+"""Of a body's size (its box's diagonal): how far its colliders may be from its parts' …"""
+COARSE = (0.05, 0.08, 0.12, 0.16, 0.2)
+"""… and in the light variant: the first of these with which the machine has at most …"""
+MOST = 60
+"""… so many colliders, or the last."""
+EDGE = 5e-3
+"""Metres that leaving out a solid may take from its body's outline, unless it is a small one …"""
+SMALL = 0.05
+"""… as bolts are: of the body's size."""
+AROUND = 8
+"""Poses of a joint that turns without end."""
+FROM_END_TO_END = 5
+"""Poses of one with limits."""
+
+
+@dataclass(frozen=True, eq=False)
+class Touching:
+    """A collider, metres: a `primitive` or a `solid`, which is its likeness. `parts` are the ids of the CAD parts that
+    it stands for, `label` the name of the largest."""
+
+    label: str
+    material: str
+    parts: tuple[str, ...]
+    solid: Convex
+    primitive: Primitive | None = None
+
+    def shifted(self, by: Floats) -> Touching:
+        """The collider moved by (3,) metres."""
+        primitive = self.primitive
+        if primitive is not None:
+            primitive = replace(primitive, center=primitive.center + by)
+        return replace(self, solid=self.solid.shifted(by), primitive=primitive)
+
+
+Pool = dict[str, list[Touching]]
+"""The colliders of bodies by name, machine frame."""
+
+
+def told_alone(mechanism: Mechanism) -> frozenset[str]:
+    """The bodies whose parts collide as told: track shoes, and what they run on."""
+    return chained(mechanism) | (rolling(mechanism) if mechanism.floating else frozenset())
+
+
+def solids_of(shape: Shape, token: str) -> tuple[Mesh | Primitive, ...]:
+    """The solids of a shape by its approximation, in its own frame."""
+    if token == "analytic" and (primitive := fit_primitive(shape)) is not None:
+        return (primitive,)
+    if token == "turned" and (pieces := turned_pieces(shape)):
+        return pieces
+    points, triangles, _ = weld(shape.mesh)
+    mesh = Mesh(points.astype(np.float64), triangles)
+    return convex_pieces(mesh) if token == "convexDecomposition" and len(triangles) else (mesh,)
+
+
+def as_drawn(
+    solids: Iterable[Mesh | Primitive], matrix: Floats, *, label: str, material: str, part: str
+) -> Iterable[Touching]:
+    """The colliders of one part, whose solids are placed by `matrix` (4, 4)."""
+    for solid in solids:
+        primitive = solid.placed(matrix) if isinstance(solid, Primitive) else None
+        if primitive is not None:
+            yield Touching(label, material, (part,), convex(primitive.surface()), primitive)
+        else:
+            points = solid.surface() if isinstance(solid, Primitive) else solid.points
+            made = with_few_corners(convex(points @ matrix[:3, :3].T + matrix[:3, 3]))
+            yield Touching(label, material, (part,), made)
+
+
+def fine(mechanism: Mechanism, drawn: Pool) -> Pool:
+    """The colliders that stand for those that are drawn."""
+    left = _without_covered(mechanism, drawn)
+    return {name: _together(left[name], FINE * size_of(solids), round_too=False) for name, solids in drawn.items()}
+
+
+def light(mechanism: Mechanism, made: Pool) -> Pool:
+    """Still fewer for the fine ones, simple shapes where these will do."""
+    own = sum(len(body.shapes) for body in mechanism.bodies)
+    fewer, round_ = made, rolling(mechanism)
+    for share in COARSE:
+        fewer = {
+            name: _simple(solids, share * size_of(solids), round_too=name not in round_)
+            for name, solids in made.items()
+        }
+        if own + sum(map(len, fewer.values())) <= MOST:
+            break
+    return fewer
+
+
+def size_of(solids: Iterable[Touching]) -> float:
+    """The diagonal of the box around solids, metres."""
+    corners = [one.solid.corners for one in solids]
+    return float(np.linalg.norm(np.ptp(np.concatenate(corners), axis=0))) if corners else 0.0
+
+
+# ---- what others cover ----------------------------------------------------------------------------------------------
+def _without_covered(mechanism: Mechanism, drawn: Pool) -> Pool:
+    """Those that stand out, the smallest tried first."""
+    left = {name: list(solids) for name, solids in drawn.items()}
+    within = {name: FINE * size_of(solids) for name, solids in drawn.items()}
+    poses = {name: _neighbours(mechanism, name) for name in drawn}
+    outlines = {name: _outline(solids) for name, solids in drawn.items()}
+    order = [(one.solid.volume, name, number) for name, them in drawn.items() for number, one in enumerate(them)]
+    for _, name, number in sorted(order):
+        one = drawn[name][number]
+        others = [other for other in left[name] if other is not one]
+        edge = one in outlines[name] and _is_edge(one, others, within[name])
+        if _is_covered(one, others, poses[name], left, EDGE if edge else within[name]):
+            left[name] = others
+            if one in outlines[name]:
+                outlines[name] = _outline(others)
+    return left
+
+
+def _outline(solids: Sequence[Touching]) -> frozenset[Touching]:
+    """Those that the hull of all of them has corners of."""
+    if not solids:
+        return frozenset()
+    corners = np.concatenate([one.solid.corners for one in solids])
+    owner = np.repeat(np.arange(len(solids)), [len(one.solid.corners) for one in solids])
+    kept = {tuple(row) for row in hull(corners).points.tolist()}
+    rows = {index for index, row in zip(owner.tolist(), corners.tolist(), strict=True) if tuple(row) in kept}
+    return frozenset(solids[row] for row in rows)
+
+
+def _neighbours(mechanism: Mechanism, body: str) -> list[list[tuple[str, Floats]]]:
+    """The bodies jointed to one, each with the motion (4, 4) that takes a point of the one to where it is among the
+    other's drawn solids; pose by pose of the joints."""
+    joints = [joint for joint in mechanism.joints if body in (joint.body0, joint.body1)]
+    turning = [joint for joint in joints if _has_no_ends(joint)]
+    shares = np.linspace(0.0, 1.0, AROUND if turning else FROM_END_TO_END)
+    found: list[list[tuple[str, Floats]]] = []
+    for share in (None, *shares.tolist()):
+        pose: list[tuple[str, Floats]] = []
+        for joint in joints:
+            motion = _motion(joint, 0.0 if share is None else _coordinate(joint, share))
+            if body == joint.body0:
+                pose.append((joint.body1, np.asarray(np.linalg.inv(motion), dtype=np.float64)))
+            else:
+                pose.append((joint.body0, motion))
+        found.append(pose)
+    return found
+
+
+def _has_no_ends(joint: Joint) -> bool:
+    return joint.type != "fixed" and (joint.lower is None or joint.upper is None)
+
+
+def _coordinate(joint: Joint, share: float) -> float:
+    if joint.lower is not None and joint.upper is not None:
+        return joint.lower + share * (joint.upper - joint.lower)
+    return 2.0 * np.pi * share if joint.type in ("revolute", "spherical") else 0.0
+
+
+def _motion(joint: Joint, value: float) -> Floats:
+    """The rigid motion (4, 4) of `body1` in `body0` from the drawn pose to that coordinate."""
+    axis, anchor = np.asarray(joint.axis), np.asarray(joint.anchor)
+    made = np.eye(4)
+    if joint.type == "prismatic":
+        made[:3, 3] = value * axis
+    elif joint.type in ("revolute", "spherical"):
+        cross = np.array([[0.0, -axis[2], axis[1]], [axis[2], 0.0, -axis[0]], [-axis[1], axis[0], 0.0]])
+        made[:3, :3] += np.sin(value) * cross + (1.0 - np.cos(value)) * cross @ cross
+        made[:3, 3] = anchor - made[:3, :3] @ anchor
+    return made
+
+
+def _is_covered(
+    one: Touching, others: Sequence[Touching], poses: Sequence[Sequence[tuple[str, Floats]]], left: Pool, within: float
+) -> bool:
+    points = one.solid.surface(spacing_of(within))
+    near = sorted((o.solid for o in others if touch(o.solid, one.solid, within)), key=lambda solid: -solid.volume)
+    points = points[uncovered(points, near, within)]
+    for pose in poses if len(points) else ():
+        open_ = points
+        for name, motion in pose:
+            moved = open_ @ motion[:3, :3].T + motion[:3, 3]
+            open_ = open_[uncovered(moved, (o.solid for o in left.get(name, ())), within)]
+            if not len(open_):
+                break
+        if len(open_):
+            return False
+    return True
+
+
+def _is_edge(one: Touching, others: Sequence[Touching], within: float) -> bool:
+    """Whether the body's outline would be missing it: a cutting edge that hardly stands out of what it is on."""
+    size = float(np.linalg.norm(np.ptp(one.solid.corners, axis=0)))
+    if not others or size <= SMALL / FINE * within:
+        return False
+    rest = convex(np.concatenate([other.solid.corners for other in others]))
+    return bool(rest.beyond(one.solid.corners).max() > EDGE)
+
+
+# ---- fewer ----------------------------------------------------------------------------------------------------------
+def _together(solids: Sequence[Touching], within: float, *, round_too: bool) -> list[Touching]:
+    """As few as stand for them within a tolerance. Round and square ones stay what they are, unless `round_too`."""
+    kept = [] if round_too else [one for one in solids if one.primitive is not None]
+    rest = [one for one in solids if round_too or one.primitive is None]
+    made = []
+    for solid, members in merged([one.solid for one in rest], within):
+        stood_for = sorted((rest[number] for number in members), key=lambda one: -one.solid.volume)
+        first = stood_for[0]
+        parts = tuple(dict.fromkeys(part for one in stood_for for part in one.parts))
+        primitive = first.primitive if len(stood_for) == 1 else None
+        made.append(Touching(first.label, first.material, parts, with_few_corners(solid), primitive))
+    return [*kept, *made]
+
+
+def _simple(solids: Sequence[Touching], within: float, *, round_too: bool) -> list[Touching]:
+    made = []
+    for one in _together(solids, within, round_too=round_too):
+        primitive = one.primitive or enclosing(one.solid, within)
+        made.append(replace(one, primitive=primitive) if primitive is not None else one)
+    return made
