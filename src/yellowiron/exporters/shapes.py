@@ -10,7 +10,7 @@ from yellowiron.exporters.assets import Assets, unique
 from yellowiron.exporters.geometry import BodyGeometry, Geometry, Kind
 from yellowiron.exporters.values import quaternion
 from yellowiron.model.geometry import Color, Floats, Mesh
-from yellowiron.support.convex import convex_pieces, hull
+from yellowiron.support.convex.pieces import convex_pieces, hull
 
 
 class ConvexPieces:

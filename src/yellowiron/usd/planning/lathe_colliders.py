@@ -7,7 +7,7 @@ import itertools
 import numpy as np
 
 from yellowiron.model.geometry import Floats, Mesh, Shape
-from yellowiron.support.convex import hull
+from yellowiron.support.convex.pieces import hull
 
 CORNERS = 48
 """Of each disc: a rim of 0.3 m is 0.6 mm out of round."""

@@ -7,7 +7,7 @@ import itertools
 import numpy as np
 
 from yellowiron.model.mechanism import Body
-from yellowiron.support.hulls import Convex, convex, interpenetrate, touch
+from yellowiron.support.convex.solids import Convex, convex, interpenetrate, touch
 from yellowiron.usd.planning.plan import Plan
 from yellowiron.usd.planning.primitives import Primitive
 

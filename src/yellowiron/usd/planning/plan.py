@@ -11,7 +11,7 @@ from yellowiron.model.assembly import Assembly, Part
 from yellowiron.model.errors import MechanismError
 from yellowiron.model.geometry import Floats, Mesh, Shape
 from yellowiron.model.mechanism import Body, BodyPart, Mechanism
-from yellowiron.support.convex import convex_pieces
+from yellowiron.support.convex.pieces import convex_pieces
 from yellowiron.support.record import DETAILS
 from yellowiron.usd.authoring.materials import Look, look_of
 from yellowiron.usd.authoring.merge_points import weld
@@ -20,7 +20,7 @@ from yellowiron.usd.planning.collision import APPROXIMATIONS, Approximation, app
 from yellowiron.usd.planning.lathe_colliders import turned_pieces
 from yellowiron.usd.planning.pin_links import PinLink, plan_pin_links
 from yellowiron.usd.planning.primitives import Primitive
-from yellowiron.usd.planning.touching import POOLED, Pool, Touching, as_drawn, fine, light, solids_of, told_alone
+from yellowiron.usd.planning.touching import POOLED, Pool, Touching, as_drawn, fine_and_light, solids_of, told_alone
 
 GEOMETRY_FILE = "geometry.usdc"
 PROTOTYPES, HULLS, SOLIDS = "/Prototypes", "/Hulls", "/Colliders"
@@ -134,9 +134,8 @@ def _solids(
     mechanism: Mechanism, pool: Pool, parts: Mapping[str, tuple[PlacedPart, ...]], homes: Mapping[str, str]
 ) -> dict[str, dict[str, tuple[Solid, ...]]]:
     """The colliders of the pooled parts, full and light, in their bodies' frames."""
-    full = fine(mechanism, pool)
     found: dict[str, dict[str, tuple[Solid, ...]]] = {}
-    for detail, made in zip(DETAILS, (full, light(mechanism, full)), strict=False):
+    for detail, made in zip(DETAILS, fine_and_light(mechanism, pool), strict=False):
         found[detail] = {}
         for body in mechanism.bodies:
             names = Names(*(p.name for p in parts[body.name] if p.collides), *(s.name for s in body.shapes))

@@ -12,7 +12,7 @@ import numpy as np
 
 from yellowiron.model.geometry import Floats, Shape
 from yellowiron.model.mechanism import BodyShape
-from yellowiron.support.hulls import Convex
+from yellowiron.support.convex.solids import Convex
 
 MAX_EXCESS = 1.6
 """A primitive stands for a shape if its volume is at most this multiple of the shape's convex hull."""

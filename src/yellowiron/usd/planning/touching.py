@@ -19,8 +19,18 @@ import numpy as np
 
 from yellowiron.model.geometry import Floats, Mesh, Shape
 from yellowiron.model.mechanism import Joint, Mechanism, chained, rolling
-from yellowiron.support.convex import convex_pieces, hull
-from yellowiron.support.hulls import Convex, convex, merged, spacing_of, touch, uncovered, with_few_corners
+from yellowiron.support.caching.disk import kept
+from yellowiron.support.convex.pieces import convex_pieces
+from yellowiron.support.convex.solids import (
+    Convex,
+    convex,
+    merged,
+    outermost,
+    spacing_of,
+    touch,
+    uncovered,
+    with_few_corners,
+)
 from yellowiron.usd.authoring.merge_points import weld
 from yellowiron.usd.planning.lathe_colliders import turned_pieces
 from yellowiron.usd.planning.primitives import Primitive, enclosing, fit_primitive
@@ -96,19 +106,31 @@ def as_drawn(
             yield Touching(label, material, (part,), made)
 
 
-def fine(mechanism: Mechanism, drawn: Pool) -> Pool:
-    """The colliders that stand for those that are drawn."""
+def fine_and_light(mechanism: Mechanism, drawn: Pool) -> tuple[Pool, Pool]:
+    """The colliders that stand for those that are drawn, and still fewer, simple ones where these will do. They are
+    kept between runs."""
+    joints = [(j.type, j.body0, j.body1, j.anchor, j.axis, j.lower, j.upper, j.cut) for j in mechanism.joints]
+    own = sum(len(body.shapes) for body in mechanism.bodies)
+    rounds = sorted(rolling(mechanism))
+
+    def make() -> tuple[Pool, Pool]:
+        full = _fine(mechanism, drawn)
+        return full, _light(full, own, frozenset(rounds))
+
+    return kept("colliders", make, joints, own, rounds, drawn)
+
+
+def _fine(mechanism: Mechanism, drawn: Pool) -> Pool:
     left = _without_covered(mechanism, drawn)
     return {name: _together(left[name], FINE * size_of(solids), round_too=False) for name, solids in drawn.items()}
 
 
-def light(mechanism: Mechanism, made: Pool) -> Pool:
-    """Still fewer for the fine ones, simple shapes where these will do."""
-    own = sum(len(body.shapes) for body in mechanism.bodies)
-    fewer, round_ = made, rolling(mechanism)
+def _light(made: Pool, own: int, rounds: frozenset[str]) -> Pool:
+    """`own` colliders are there besides; what rolls (`rounds`) stays round."""
+    fewer = made
     for share in COARSE:
         fewer = {
-            name: _simple(solids, share * size_of(solids), round_too=name not in round_)
+            name: _simple(solids, share * size_of(solids), round_too=name not in rounds)
             for name, solids in made.items()
         }
         if own + sum(map(len, fewer.values())) <= MOST:
@@ -147,9 +169,7 @@ def _outline(solids: Sequence[Touching]) -> frozenset[Touching]:
         return frozenset()
     corners = np.concatenate([one.solid.corners for one in solids])
     owner = np.repeat(np.arange(len(solids)), [len(one.solid.corners) for one in solids])
-    kept = {tuple(row) for row in hull(corners).points.tolist()}
-    rows = {index for index, row in zip(owner.tolist(), corners.tolist(), strict=True) if tuple(row) in kept}
-    return frozenset(solids[row] for row in rows)
+    return frozenset(solids[row] for row in np.unique(owner[outermost(corners)]).tolist())
 
 
 def _neighbours(mechanism: Mechanism, body: str) -> list[list[tuple[str, Floats]]]:

@@ -12,7 +12,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from yellowiron.model.geometry import Floats, Mesh
-from yellowiron.support.convex import hull
+from yellowiron.support.convex.pieces import hull
 
 CORNERS = 64
 """Of a hull: PhysX cooks no more for a GPU."""
@@ -100,6 +100,16 @@ def _solid(points: Floats) -> Convex:
     middle = mesh.points.mean(axis=0)
     volume = float(np.einsum("ij,ij->", np.cross(a - middle, b - middle), c - middle)) / 6.0
     return Convex(mesh.points, mesh.triangles, planes, volume)
+
+
+def outermost(points: Floats) -> NDArray[np.intp]:
+    """The indices of the points (n, 3) that are corners of their hull; of a flat cloud all."""
+    from scipy.spatial import ConvexHull, QhullError
+
+    try:
+        return np.asarray(np.sort(ConvexHull(points).vertices), dtype=np.intp)
+    except QhullError:
+        return np.arange(len(points))
 
 
 def with_few_corners(solid: Convex, most: int = CORNERS) -> Convex:

@@ -15,7 +15,7 @@ from kit.machines import small_machine
 from yellowiron.model.geometry import Mesh
 from yellowiron.support import convex
 from yellowiron.support.caching.disk import VARIABLE, cache_folder
-from yellowiron.support.convex import MOST, convex_pieces, hull
+from yellowiron.support.convex.pieces import MOST, convex_pieces, hull
 
 
 def as_mesh(mesh: trimesh.Trimesh) -> Mesh:

@@ -9,7 +9,7 @@ from hypothesis import given, settings
 from hypothesis import strategies as st
 from scipy.spatial.transform import Rotation
 
-from yellowiron.support.hulls import (
+from yellowiron.support.convex.solids import (
     CORNERS,
     THINNEST,
     Convex,
