@@ -1,7 +1,9 @@
 """Hidden wheels: bodies that no CAD part plays, which carry and drive a machine whose track shoes are no bodies.
 
-A row's rule (docs: template format) says where they stand along the stretch of the track that lies on the ground. Each
-is a ball, which touches the ground in one point: a machine on broad wheels hardly turns on the spot, since their two
+A row's rule (docs: template format) says where they stand along the stretch of the track that lies on the ground: that
+between the axles of its front and its rear tumbler (an idler, a sprocket), where these are drawn low enough to end it,
+else that of the points which are on the ground. Makers publish the former as the track's length on the ground, and a
+machine on soft ground tips over it. Each is a ball, which touches the ground in one point: a machine on broad wheels hardly turns on the spot, since their two
 ends hold against each other. Together they weigh what the track weighs, as hoops: a hoop of mass m that rolls with
 speed v turns with the energy m v²/2, and so does a chain of that mass that runs around with v. The body that the track
 moves with loses their mass and moments, so that the machine's mass, centre and inertia in the drawn pose stay what they
@@ -28,6 +30,10 @@ MIDDLE = 2.0 / 3.0
 """Share of the room between two tracks, drawn in one with their frame, that is surely the frame's."""
 ON_GROUND = 0.03
 """What is this near to the lowest point, as a share of the track's height, lies on the ground."""
+TUMBLERS = ("idler", "sprocket")
+"""Kinds of the roles around which a track turns up from the ground …"""
+LOW = 0.35
+"""… if they reach as low as this share of the track's height: a high drive's sprocket does not."""
 FLAT = 1e-6
 """Metres: what is no higher is no track."""
 LEFT_OVER = 0.02
@@ -79,6 +85,7 @@ def hidden_wheels(placement: Placement, template: Template, findings: list[Findi
             findings.append(Finding("MEC070", "error", row, words, "Check the undercarriage's parts."))
             continue
         low, high, ground = _stretch(points)
+        ground = _between_tumblers(placement, template, roles[0].side, low, high) or ground
         radius = 0.5 * rule["radius"] * float(high[2] - low[2])
         middle, length = 0.5 * (ground[0] + ground[1]), ground[1] - ground[0]
         for role, at in zip(roles, rule["at"], strict=True):
@@ -150,6 +157,22 @@ def with_wheels(
         by_name[carrier] = _lighter(_bare(by_name[carrier], stood_for), made, findings)
         by_name[carrier] = _between(by_name[carrier], [w for w in wheels.values() if w.carrier == carrier], placement)
     return tuple(by_name[name] for name in order)
+
+
+def _between_tumblers(
+    placement: Placement, template: Template, side: str, low: Floats, high: Floats
+) -> tuple[float, float] | None:
+    """From where to where along x the track of a side is tangent to the ground: below the axles of its first and last
+    low tumbler. None where it has no two."""
+    names = {r.name for r in template.roles if r.kind in TUMBLERS and r.side == side}
+    axles = []
+    for name in sorted(names):
+        points = placement.points_of(tuple(i for i, role in enumerate(placement.roles) if role == name))
+        if len(points) and float(points[:, 2].min()) < low[2] + LOW * (high[2] - low[2]):
+            axles.append(round(0.5 * float(points[:, 0].min() + points[:, 0].max()), 9))
+    if len(axles) < 2 or max(axles) - min(axles) < 0.5 * float(high[0] - low[0]):
+        return None
+    return min(axles), max(axles)
 
 
 def _between(body: Body, wheels: Sequence[HiddenWheel], placement: Placement) -> Body:
