@@ -133,17 +133,19 @@ def measure(mechanism: Mechanism) -> tuple[tuple[Measurement, ...], dict[str, di
 
 def write(
     mechanism: Mechanism, assembly: Assembly, frame: Floats, folder: Path, *, textures: Sequence[str]
-) -> tuple[tuple[Finding, ...], dict[str, int]]:
-    """Writes the machine into an empty folder and checks it: what the rules found, and `usd.count_joints`. `textures`:
-    folders in which those that materials name are looked for."""
+) -> tuple[tuple[Finding, ...], dict[str, int], dict[str, dict[str, int]]]:
+    """Writes the machine into an empty folder and checks it: what the rules found, `usd.count_joints` and
+    `usd.count_colliders`. `textures`: folders in which those that materials name are looked for."""
 
-    def make() -> tuple[dict[str, bytes], tuple[tuple[Finding, ...], dict[str, int]]]:
+    def make() -> tuple[dict[str, bytes], tuple[tuple[Finding, ...], dict[str, int], dict[str, dict[str, int]]]]:
         usd.write_machine(
             mechanism, assembly, folder, name=mechanism.name, frame=frame,
             texture_folders=[Path(place) for place in textures],
         )  # fmt: skip
         files = {str(f.relative_to(folder)): f.read_bytes() for f in sorted(folder.rglob("*")) if f.is_file()}
-        return files, (checks.check(folder / "scene.usda"), usd.count_joints(folder / f"{mechanism.name}.usda"))
+        machine = folder / f"{mechanism.name}.usda"
+        found = checks.check(folder / "scene.usda"), usd.count_joints(machine), usd.count_colliders(machine)
+        return files, found
 
     if any(material.texture for material in mechanism.materials.values()):
         return make()[1]

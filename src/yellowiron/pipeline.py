@@ -159,7 +159,9 @@ def build(
 
         with clock.stage("write", "Writing and checking USD"):
             textures = [*data.folders, template.folder]
-            checked, usd_counts = memory.write(mechanism, assembly, alignment.frame, folder, textures=textures)
+            checked, usd_counts, colliders = memory.write(
+                mechanism, assembly, alignment.frame, folder, textures=textures
+            )
             written = folder / f"{mechanism.name}.usda"
 
         simulation, sweeps = {}, {}
@@ -175,7 +177,7 @@ def build(
                     *memory.lint(chosen), *assembly.findings, *data.findings,
                     *declared_findings(compared, assembly.name), *checked,
                 ),
-                usd_counts=usd_counts,
+                usd_counts=usd_counts, colliders=colliders,
                 levers=memory.levers(mechanism),
                 simulation=simulation, declared=compared,
             ))  # fmt: skip

@@ -24,8 +24,9 @@ RELATIVE_TOLERANCE = 0.2
 @dataclass(frozen=True, eq=False)
 class BuildFacts:
     """What a build's stages gave, for its report. `findings`: those that no other value here carries; `usd_counts`: of
-    joints in the written file; `levers`: actuator → its table; `simulation`: engine → its document; `declared`: the
-    joints that the CAD file itself declares, beside what was found."""
+    joints in the written file; `colliders`: body → how many it has there by detail; `levers`: actuator → its table;
+    `simulation`: engine → its document; `declared`: the joints that the CAD file itself declares, beside what was
+    found."""
 
     mechanism: Mechanism
     template: Template
@@ -34,6 +35,7 @@ class BuildFacts:
     measurements: Sequence[Measurement] = ()
     findings: Sequence[Finding] = ()
     usd_counts: Mapping[str, int] = field(default_factory=dict)
+    colliders: Mapping[str, Mapping[str, int]] = field(default_factory=dict)
     levers: Mapping[str, Any] = field(default_factory=dict)
     simulation: Mapping[str, Mapping[str, Any]] = field(default_factory=dict)
     declared: Sequence[Any] = ()
@@ -50,7 +52,7 @@ def report_document(facts: BuildFacts) -> dict[str, Any]:
         "frame": alignment.frame,
         "alignment": _alignment_counts(alignment),
         "specifications": [specification_entry(s) for s in facts.specifications],
-        "bodies": [_body_entry(b) for b in mechanism.bodies],
+        "bodies": [{**_body_entry(b), "colliders": dict(facts.colliders.get(b.name, {}))} for b in mechanism.bodies],
         "joints": [_joint_entry(j) for j in mechanism.joints],
         "declared_joints": [asdict(d) for d in facts.declared],
         "cylinders": [{**asdict(c), "extension": c.extension} for c in mechanism.cylinders],

@@ -6,3 +6,5 @@ RECORD = "yellowiron"
 DETAIL, DETAILS = "Detail", ("full", "light", "visual")
 """The variant set of a machine's colliders, in its file and in what is exported of it: all of them, which is selected,
 few and simple ones, or none."""
+COLLIDING = DETAILS[:2]
+"""Those that have colliders."""

@@ -3,11 +3,11 @@
 A row's rule (docs: template format) says where they stand along the stretch of the track that lies on the ground: that
 between the axles of its front and its rear tumbler (an idler, a sprocket), where these are drawn low enough to end it,
 else that of the points which are on the ground. Makers publish the former as the track's length on the ground, and a
-machine on soft ground tips over it. Each is a ball, which touches the ground in one point: a machine on broad wheels hardly turns on the spot, since their two
-ends hold against each other. Together they weigh what the track weighs, as hoops: a hoop of mass m that rolls with
-speed v turns with the energy m v²/2, and so does a chain of that mass that runs around with v. The body that the track
-moves with loses their mass and moments, so that the machine's mass, centre and inertia in the drawn pose stay what they
-are.
+machine on soft ground tips over it. Each is a ball, which touches the ground in one point: a machine on broad wheels
+hardly turns on the spot, since their two ends hold against each other. Together they weigh what the track weighs, as
+hoops: a hoop of mass m that rolls with speed v turns with the energy m v²/2, and so does a chain of that mass that
+runs around with v. The body that the track moves with loses their mass and moments, so that the machine's mass, centre
+and inertia in the drawn pose stay what they are.
 """
 
 from __future__ import annotations

@@ -237,6 +237,7 @@ def _bodies(document: Mapping[str, Any], alignment: Alignment) -> list[dict[str,
     """One entry a body or counted row of bodies, and one for what is left out."""
     review = set(alignment.to_review)
     masses = {b["name"]: b["mass"] for b in document["bodies"]}
+    touch = {b["name"]: b["colliders"].get("full", 0) for b in document["bodies"]}
     names = list(masses)
     parts: dict[str | None, list[PartAssignment]] = {}
     for each in alignment.parts:
@@ -244,20 +245,20 @@ def _bodies(document: Mapping[str, Any], alignment: Alignment) -> list[dict[str,
     rows = []
     for row, places in in_rows(names).items():
         members = [names[place] for place in places]
-        mass = sum(masses[m] for m in members)
-        rows.append(_body(row, [p for m in members for p in parts.get(m, ())], review, mass=mass, count=len(members)))
+        figures = [shown(sum(masses[m] for m in members), "kg", digits=4)]
+        figures.append(counted(sum(touch[m] for m in members), "collider"))
+        mine = [p for m in members for p in parts.get(m, ())]
+        rows.append(_body(row, mine, review, figures=figures, count=len(members)))
     if None in parts:
         rows.append(_body("left out of the machine", parts[None], review))
     return rows
 
 
 def _body(
-    name: str, parts: Sequence[PartAssignment], review: set[str], *, mass: float | None = None, count: int = 1
+    name: str, parts: Sequence[PartAssignment], review: set[str], *, figures: Sequence[str] = (), count: int = 1
 ) -> dict[str, Any]:
     words = [counted(count, "body", "bodies")] if count > 1 else []
-    words.append(counted(len(parts), "part"))
-    if mass is not None:
-        words.append(shown(mass, "kg", digits=4))
+    words += [counted(len(parts), "part"), *figures]
     doubtful = [part for part in parts if part.part in review]
     sure = [part for part in parts if part.part not in review]
     return {"name": name, "doubtful": doubtful, "sure": sure, "words": ", ".join(words)}

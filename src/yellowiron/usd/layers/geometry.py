@@ -129,7 +129,7 @@ def write_solids(layer: Sdf.Layer, plan: Plan) -> None:
 
 
 def _write_surface(spec: Sdf.PrimSpec, mesh: Mesh) -> None:
-    """A triangle mesh that nobody sees."""
+    """A triangle mesh that nobody sees, each triangle flat."""
     points = mesh.points.astype(np.float32)
     set_attribute(spec, "points", Types.Point3fArray, Vt.Vec3fArray.FromNumpy(points))
     counts = np.full(len(mesh.triangles), 3, dtype=np.int32)
@@ -137,6 +137,10 @@ def _write_surface(spec: Sdf.PrimSpec, mesh: Mesh) -> None:
     indices = np.ascontiguousarray(mesh.triangles, dtype=np.int32).ravel()
     set_attribute(spec, "faceVertexIndices", Types.IntArray, Vt.IntArray.FromNumpy(indices))
     set_attribute(spec, "subdivisionScheme", Types.Token, "none", uniform=True)
+    a, b, c = (mesh.points[mesh.triangles[:, k]] for k in range(3))
+    crossed = np.cross(b - a, c - a)
+    flat = crossed / np.maximum(np.linalg.norm(crossed, axis=1, keepdims=True), 1e-12)
+    set_attribute(spec, "normals", Types.Normal3fArray, _single(flat), interpolation="uniform")
     extent = Vt.Vec3fArray([Gf.Vec3f(*points.min(axis=0).tolist()), Gf.Vec3f(*points.max(axis=0).tolist())])
     set_attribute(spec, "extent", Types.Float3Array, extent)
 

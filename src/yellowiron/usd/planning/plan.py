@@ -12,7 +12,7 @@ from yellowiron.model.errors import MechanismError
 from yellowiron.model.geometry import Floats, Mesh, Shape
 from yellowiron.model.mechanism import Body, BodyPart, Mechanism
 from yellowiron.support.convex.pieces import convex_pieces
-from yellowiron.support.record import DETAILS
+from yellowiron.support.record import COLLIDING
 from yellowiron.usd.authoring.materials import Look, look_of
 from yellowiron.usd.authoring.merge_points import weld
 from yellowiron.usd.authoring.stage import Names
@@ -135,7 +135,7 @@ def _solids(
 ) -> dict[str, dict[str, tuple[Solid, ...]]]:
     """The colliders of the pooled parts, full and light, in their bodies' frames."""
     found: dict[str, dict[str, tuple[Solid, ...]]] = {}
-    for detail, made in zip(DETAILS, fine_and_light(mechanism, pool), strict=False):
+    for detail, made in zip(COLLIDING, fine_and_light(mechanism, pool), strict=True):
         found[detail] = {}
         for body in mechanism.bodies:
             names = Names(*(p.name for p in parts[body.name] if p.collides), *(s.name for s in body.shapes))
