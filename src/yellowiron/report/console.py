@@ -247,7 +247,11 @@ def _test_table(entries: Iterable[Mapping[str, Any]]) -> Table:
         if entry["role"] != "checked":
             mark = mark + Text(f" {entry['role']} value", "dim")
         unpublished = [i["name"] for i in entry["inputs"] if not i["published"]]
-        notes = [entry["reason"], f"not published: {', '.join(unpublished)}" if unpublished else ""]
+        notes = [
+            entry["reason"],
+            f"rig: {entry['rig']}",
+            f"not published: {', '.join(unpublished)}" if unpublished else "",
+        ]
         mark = mark + Text(f" {'; '.join(note for note in notes if note)}", "dim")
         unit = entry["unit"]
         shown = (

@@ -184,6 +184,7 @@ def _tests(runs: Sequence[Run]) -> list[dict[str, Any]]:
             {
                 "name": name,
                 "definition": first.get("definition", ""),
+                "rig": first.get("rig", ""),
                 "role": first.get("role", ""),
                 "sheet": _expected(first) if first["kind"] == "lift" else _amount(first["spec"], first),
                 "statics": _amount(first.get("statics_value"), first),

@@ -16,6 +16,14 @@ from yellowiron.support.text import display
 BARS: Mapping[str, float] = {"tipping": 10.0, "force": 10.0, "time": 15.0}
 """Percent by which a figure may miss the published one, by kind."""
 UNITS: Mapping[str, str] = {"tipping": "kg", "force": "N", "time": "s", "lift": "1"}
+RIG: Mapping[str, str] = {
+    "tipping": "cylinders locked",
+    "force": "its own cylinders at pressure times area, the others locked",
+    "time": "its drive lets the sheet's flow pass, its target goes at that speed",
+    "lift": "its own cylinders at pressure times area and the sheet's flow, the others locked",
+}
+"""By kind: what a test puts in the place of what the machine's file says. Of colliders those count that stand on the
+ground, in every test."""
 AGREED = 5.0
 """Percent by which engine and statics may differ, for what statics says in full: loads and forces."""
 
@@ -87,6 +95,7 @@ def figures_document(figures: Sequence[Figure]) -> list[dict[str, Any]]:
             "kind": f.test.kind,
             "definition": f.test.definition,
             "unit": UNITS[f.test.kind],
+            "rig": RIG[f.test.kind],
             "engine_value": f.engine_value,
             "statics_value": f.statics_value,
             "statics_difference_percent": f.statics_difference_percent,
