@@ -3,6 +3,7 @@ kilograms."""
 
 from __future__ import annotations
 
+import math
 from collections.abc import Iterable, Mapping
 from dataclasses import dataclass, field
 from typing import Any, Literal
@@ -76,6 +77,11 @@ class Body:
     shapes: tuple[BodyShape, ...] = ()
 
 
+SLOWED = 0.75
+"""Of its rated speed: what its whole force may slow a drive by whose speed is limited. Gains that are computed keep to
+half to two thirds; stated ones may be too soft, and have no limit then."""
+
+
 @dataclass(frozen=True)
 class Drive:
     """A joint drive. `position` drives hold a target with stiffness and damping, `velocity` drives have damping only.
@@ -105,6 +111,17 @@ class Drive:
     def speeds(self) -> tuple[float, float]:
         """The rated speed (m/s, rad/s) in the negative direction and in the positive one, both positive."""
         return self.max_velocity if self.reverse_velocity is None else self.reverse_velocity, self.max_velocity
+
+    @property
+    def rated(self) -> bool:
+        """Whether its speed can be limited by a servo and a damper (MJCF; Newton): it holds a position, has a rated
+        speed both ways, and so much damping that its whole force does not slow it by more than `SLOWED`.
+
+        Its force is then clamp(clamp(k·(target − q), −d·v₋, d·v₊) − d·q̇, −F₋, F₊): however far the target, no faster
+        than v₋ and v₊, and no stronger than F₋ and F₊. The inner clamp is the servo's.
+        """
+        both = zip(self.forces, self.speeds, strict=True)
+        return self.kind == "position" and all(0.0 < v < math.inf and f <= SLOWED * self.damping * v for f, v in both)
 
     @property
     def strongest(self) -> float:

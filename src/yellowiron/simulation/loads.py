@@ -7,7 +7,6 @@ from collections.abc import Mapping, Sequence
 
 import numpy as np
 
-from yellowiron.exporters.mjcf.actuators import rated
 from yellowiron.kinematics import ClosedChain, weight
 from yellowiron.model.geometry import Floats
 from yellowiron.simulation.commands import Motion, Pace, sampled
@@ -70,7 +69,7 @@ def _pace(chain: ClosedChain, motion: Motion) -> Pace:
         if fraction == 1.0 and math.isfinite(spare := min(push - held, pull + held)):
             spare = max(0.1 * min(push, pull), spare)
             limits[number] = SPARE * spare / chain.effective_mass(state, motion.joint)
-        if fraction == 1.0 and drive is not None and rated(drive):
+        if fraction == 1.0 and drive is not None and drive.rated:
             # A drive whose speed is limited has its force by how much slower than rated it is.
             hindered = np.maximum(0.0, np.array([-held, held])) / drive.damping
             speeds[number] = np.maximum(0.1 * np.array(drive.speeds), np.array(drive.speeds) - hindered)

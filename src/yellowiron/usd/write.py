@@ -24,6 +24,7 @@ from yellowiron.usd.layers.physx import write_physx
 from yellowiron.usd.layers.scene import PAYLOAD_FOLDER, write_machine_layer, write_scene_layer
 from yellowiron.usd.layers.sensors import FILE as SENSOR_FILE
 from yellowiron.usd.layers.sensors import write_contact_reports, write_sensors
+from yellowiron.usd.layers.servos import write_servos
 from yellowiron.usd.planning.plan import GEOMETRY_FILE, HULLS, PROTOTYPES, Plan, make_plan
 
 SCENE_FILE = "scene.usda"
@@ -68,6 +69,7 @@ def write_machine(
         write_brakes(physx, plan, "physx")
         write_contact_reports(physx, plan)
         write_mujoco(mujoco, base, plan)
+        write_servos(mujoco, plan)
         write_brakes(mujoco, plan, "newton")
         if mechanism.sensors:
             write_sensors(sensors, plan)

@@ -10,9 +10,6 @@ from yellowiron.exporters.mjcf.hardness import SOLIMP, SOLREF
 from yellowiron.exporters.values import row, text
 from yellowiron.model.mechanism import Actuator, ActuatorJoint, Drive, Joint, Mechanism
 
-SLOWED = 0.75
-"""Of its rated speed: what its whole force may slow a drive by whose speed is limited. Gains that are computed keep to
-half to two thirds; stated ones may be too soft, and have no limit then."""
 DAMPING = ".damping"
 """Ends the name of the actuator that damps another's joint; its control does nothing."""
 
@@ -40,7 +37,7 @@ def section(mechanism: Mechanism) -> ET.Element:
             servo = dict(_servo(joint, joint.drive, sign))
             ET.SubElement(made, joint.drive.kind, {"name": name, "joint": joint.name, **servo})
     for name, _, joint in driven:
-        if joint.drive is not None and rated(joint.drive):
+        if joint.drive is not None and joint.drive.rated:
             values = {"name": name + DAMPING, "joint": joint.name, "ctrlrange": "0 1", "gainprm": "0"}
             values |= {"biastype": "affine", "biasprm": row((0.0, 0.0, -joint.drive.damping))}
             ET.SubElement(made, "general", values)
@@ -58,27 +55,15 @@ def brakes(mechanism: Mechanism) -> ET.Element:
 
 
 def limits(drive: Drive) -> dict[str, str]:
-    """What a driven joint's own element says of its drive: armature, and for a `rated` one the force of its servo and
+    """What a driven joint's own element says of its drive: armature, and for a rated one the force of its servo and
     its damper together."""
     values = {"armature": text(drive.armature)} if drive.armature > 0.0 else {}
     if drive.brake > 0.0:
         # Friction that is given later: as hard as a cut, else what it holds creeps by millimetres a second.
         values |= {"solreffriction": row(SOLREF), "solimpfriction": row(SOLIMP)}
-    if rated(drive) and math.isfinite(drive.strongest):
+    if drive.rated and math.isfinite(drive.strongest):
         values["actuatorfrcrange"] = row((-drive.forces[0], drive.forces[1]))
     return values
-
-
-def rated(drive: Drive) -> bool:
-    """Whether a drive's speed is limited in MJCF: it holds a position, has a rated speed both ways, and so much damping
-    that its whole force does not slow it by more than three quarters.
-
-    Its force is then clamp(clamp(k·(target − q), −d·v₋, d·v₊) − d·q̇, −F₋, F₊): however far the target, no faster than
-    v₋ and v₊, and no stronger than F₋ and F₊. The inner clamp is the servo's `forcerange`, the outer one the joint's
-    `actuatorfrcrange`, and between them the damper is an actuator of its own.
-    """
-    both = zip(drive.forces, drive.speeds, strict=True)
-    return drive.kind == "position" and all(0.0 < v < math.inf and f <= SLOWED * drive.damping * v for f, v in both)
 
 
 def _controls(actuator: Actuator, mechanism: Mechanism) -> dict[str, ActuatorJoint]:
@@ -95,7 +80,7 @@ def _servo(joint: Joint, drive: Drive, sign: int) -> Iterator[tuple[str, str]]:
     force = drive.forces
     if drive.kind == "position":
         yield "kp", text(drive.stiffness)
-        if rated(drive):
+        if drive.rated:
             force = drive.damping * drive.speeds[0], drive.damping * drive.speeds[1]
         else:
             yield "kv", text(drive.damping)

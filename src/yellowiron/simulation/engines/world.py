@@ -32,6 +32,7 @@ from yellowiron.usd.authoring.stage import (
 from yellowiron.usd.layers.drives import INSTANCES, speed_limit, write_drive
 from yellowiron.usd.layers.physics import write_mass
 from yellowiron.usd.layers.physx import ITERATIONS, LOOPS_LAST, iterations, loops_last
+from yellowiron.usd.layers.servos import DAMPER, SERVO
 from yellowiron.usd.planning.plan import COLLIDERS
 from yellowiron.usd.read import find_machine, open_stage
 
@@ -81,6 +82,9 @@ def compose(setup: Setup) -> World:
         write_mass(over(layer, bodies[body.name]), body)
     for joint in setup.driven:
         _write_drive(over(layer, joints[joint.name]), joint)
+        for kind in (SERVO, DAMPER):
+            if (path := names.get((kind, joint.name))) is not None:
+                over(layer, path).SetInfo("active", False)
     standing = setup.standing if setup.base == "floating" else ()
     for name, path in bodies.items():
         if name not in standing:

@@ -27,7 +27,7 @@ PROTOTYPES, HULLS, SOLIDS = "/Prototypes", "/Hulls", "/Colliders"
 VISUALS, COLLIDERS, HULL = "visuals", "colliders", "hull"
 MESH, PIECE = "mesh", "piece_"
 """Under a collider of several pieces: the part's own mesh, which does not collide, and the pieces, numbered from 1."""
-JOINTS, MATERIALS, BASE_JOINT = "joints", "materials", "base_joint"
+JOINTS, MATERIALS, ACTUATORS, BASE_JOINT = "joints", "materials", "actuators", "base_joint"
 
 
 @dataclass(frozen=True, eq=False)
@@ -104,7 +104,7 @@ def make_plan(mechanism: Mechanism, assembly: Assembly, frame: Floats, name: str
     `MechanismError` where a body names a part that the assembly has not, a material or an approximation unknown.
     """
     root = "/" + Names().give(name)
-    inner = Names(JOINTS, MATERIALS)
+    inner = Names(JOINTS, MATERIALS, ACTUATORS)
     body_paths = {body.name: f"{root}/{inner.give(body.name)}" for body in mechanism.bodies}
     joint_names, material_names, home_names = Names(BASE_JOINT), Names(), Names()
     homes = {body.name: home_names.give(body.name) for body in mechanism.bodies}
