@@ -32,9 +32,9 @@ EXAMPLES = ("wheel_loader", "excavator")
 MACHINE = "/World/machine"
 COLLIDERS = "colliders"
 LEG = 3.0
-"""Seconds of a leg: drawn to low, low to high, high to drawn; a full stroke takes three at the fastest."""
-SLOWEST = 0.3
-"""m/s: longer strokes take longer."""
+"""Seconds of a leg at least: drawn to low, low to high, high to drawn."""
+SLOW = 0.12
+"""m/s that no cylinder exceeds: less than the slowest's rated speed."""
 REST = 1.0
 """Seconds before the first leg."""
 GONE = 1e3
@@ -148,7 +148,7 @@ def targets(slides: list[Slide], hz: float) -> Iterator[np.ndarray]:
             for i in moved:
                 low, high = slides[i].lower, slides[i].upper
                 end[i] = 0.0 if share is None else low + share * (high - low)
-            steps = math.ceil(hz * max(LEG, 1.6 * float(np.abs(end - now).max()) / SLOWEST))
+            steps = math.ceil(hz * max(LEG, 0.5 * math.pi * float(np.abs(end - now).max()) / SLOW))
             for step in range(1, steps + 1):
                 yield now + (end - now) * (0.5 - 0.5 * math.cos(math.pi * step / steps))
             now = end
