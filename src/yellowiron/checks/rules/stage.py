@@ -12,6 +12,9 @@ _SIZES = (0.01, 500.0)
 """Machines are between a centimetre and half a kilometre."""
 _GRAVITY = (1.0, 30.0)
 """m/s²: from less than the Moon's to more than Jupiter's; 0 is meant."""
+_AT_LEAST = "physxScene:minPositionIterationCount"
+"""0 is what PhysX has where nobody gives it."""
+_STEPS = ("physxScene:timeStepsPerSecond", "newton:timeStepsPerSecond", "mjc:option:timestep")
 
 
 @rule(
@@ -122,3 +125,27 @@ def no_kilograms_per_unit(view: View) -> Remarks:
     """The stage does not say how heavy its unit is."""
     if view.bodies and view.units.kilograms is None:
         yield view.name, "kilogramsPerUnit is not written, so masses are read in kilograms."
+
+
+@rule(
+    "CHK130",
+    "warning",
+    "Leave gravityMagnitude out for the Earth's, or set it; drives that never carried a weight prove nothing.",
+)
+def no_gravity(view: View) -> Remarks:
+    """There is no gravity."""
+    for path, gravity in view.scenes:
+        if gravity == 0.0 and view.bodies:
+            yield path, "Gravity is 0 or off, so nothing here weighs anything."
+
+
+@rule(
+    "CHK131",
+    "error",
+    "Leave it out, or give 1 or more: with none no joint, contact or drive is solved.",
+)
+def no_iterations(view: View) -> Remarks:
+    """A solver has no iterations."""
+    for path, name, value in view.solver:
+        if value == 0.0 and name not in (_AT_LEAST, *_STEPS):
+            yield path, f"{name} is 0."
