@@ -69,14 +69,15 @@ def known(mechanism: Mechanism, name: str) -> tuple[float, bool] | None:
     return None
 
 
-def load(mechanism: Mechanism, document: Path, payload: float) -> tuple[Any, Any]:
-    """The machine held by its root, with kilograms at the place of its load."""
-    spec = mujoco.MjSpec.from_file(str(document))
-    for joint in list(spec.joints):
-        if joint.type == mujoco.mjtJoint.mjJNT_FREE:
-            spec.delete(joint)
-    for key in list(spec.keys):
-        spec.delete(key)
+def load(mechanism: Mechanism, document: Path, payload: float, base: str = "fixed") -> tuple[Any, Any]:
+    """The machine held by its root, or on the ground, with kilograms at the place of its load."""
+    spec = mujoco.MjSpec.from_file(str(document if base == "fixed" else document.with_name("scene.xml")))
+    if base == "fixed":
+        for joint in list(spec.joints):
+            if joint.type == mujoco.mjtJoint.mjJNT_FREE:
+                spec.delete(joint)
+        for key in list(spec.keys):
+            spec.delete(key)
     site = next((s for s in mechanism.sites if mechanism.payload and s.name == mechanism.payload.site), None)
     if payload > 0.0 and site is not None:
         body = mechanism.body(site.body)
@@ -84,7 +85,10 @@ def load(mechanism: Mechanism, document: Path, payload: float) -> tuple[Any, Any
         carried = spec.body(site.body).add_body(name="payload", pos=np.subtract(site.position, body.origin))
         carried.mass, carried.inertia, carried.explicitinertial = payload, [ball] * 3, True
     model = spec.compile()
-    return model, mujoco.MjData(model)
+    data = mujoco.MjData(model)
+    if model.nkey:
+        mujoco.mj_resetDataKeyframe(model, data, 0)
+    return model, data
 
 
 class Driver:
@@ -130,7 +134,7 @@ def timed(machine: str, mechanism: Mechanism, document: Path, test: MachineTest)
     sheet = known(mechanism, test.specification)
     if sheet is None:
         return
-    model, data = load(mechanism, document, test.payload * rated(mechanism))
+    model, data = load(mechanism, document, test.payload * rated(mechanism), test.base)
     driver = Driver(mechanism, model, data)
     for step in test.steps:
         for name, end in step.get("set", {}).items():
@@ -142,8 +146,11 @@ def timed(machine: str, mechanism: Mechanism, document: Path, test: MachineTest)
     driver.rest()
     circuit = driver.oil.circuits[test.actuator]
     way = int((test.to == "max") == (circuit.sign > 0))
-    flow = circuit.areas[way] * (circuit.upper - circuit.lower) / min(driver.oil.flow, circuit.areas[way] * circuit.speeds[way])
-    said(machine, test.name, sheet, driver.bring(test.actuator, test.to), flow, "s")
+    volume, taken = circuit.areas[way] * (circuit.upper - circuit.lower), circuit.areas[way] * circuit.speeds[way]
+    flow = volume / min(driver.oil.flow, taken)
+    found = driver.bring(test.actuator, test.to)
+    done = driver.share(test.actuator)
+    said(machine, test.name, sheet, found, flow, "s", stalled=done if test.to == "max" else 1.0 - done)
 
 
 def rated(mechanism: Mechanism) -> float:
@@ -157,10 +164,11 @@ def rated(mechanism: Mechanism) -> float:
 def swung(machine: str, mechanism: Mechanism, document: Path, name: str, sheet: tuple[float, bool]) -> None:
     model, data = load(mechanism, document, 0.0)
     control = model.actuator(name).id
-    place, dof = (int(model.joint(int(model.actuator_trnid[control, 0])).__getattribute__(n)[0]) for n in ("qposadr", "dofadr"))
+    joint = model.joint(int(model.actuator_trnid[control, 0]))
+    place, dof = int(joint.qposadr[0]), int(joint.dofadr[0])
     driver = Driver(mechanism, model, data)
     driver.rest()
-    low, high = model.actuator_ctrlrange[control]
+    high = float(model.actuator_ctrlrange[control, 1])
     turns: dict[str, float] = {}
     start, top = float(data.qpos[place]), 0.0
     for count in range(round(20.0 / model.opt.timestep)):
@@ -177,14 +185,18 @@ def swung(machine: str, mechanism: Mechanism, document: Path, name: str, sheet: 
         print(f"| {machine} | swing of {words} from rest | | {seconds:.1f} s | | | |", flush=True)
 
 
-def said(machine: str, what: str, sheet: tuple[float, bool], found: float, alone: float, unit: str) -> None:
+def said(
+    machine: str, what: str, sheet: tuple[float, bool], found: float, alone: float, unit: str, stalled: float = 0.0
+) -> None:
     value, published = sheet
     kind = "published" if published else "example value"
-    shares = [f"{100.0 * (v / value - 1.0):+.0f} %" if math.isfinite(v) else "not reached" for v in (found, alone)]
+    shares = [f"{100.0 * (v / value - 1.0):+.0f} %" for v in (found, alone)]
+    if math.isfinite(found):
+        cells = f"{found:.2f} {unit} | {shares[0]}"
+    else:
+        cells = f"stalls at {100.0 * stalled:.0f} % of the way |"
     print(
-        f"| {machine} | {what} | {value:.3g} {unit}, {kind} | {found:.2f} {unit} | {shares[0]} "
-        f"| {alone:.2f} {unit} | {shares[1]} |",
-        flush=True,
+        f"| {machine} | {what} | {value:.3g} {unit}, {kind} | {cells} | {alone:.2f} {unit} | {shares[1]} |", flush=True
     )
 
 
