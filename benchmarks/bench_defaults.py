@@ -105,7 +105,8 @@ def main() -> None:
 
 
 def built(folder: Path, data: Path | None) -> list[Path]:
-    wanted = [(n, n, next((ROOT / "examples" / n).glob("*.step")), [*(ROOT / "examples" / n).glob("*.pdf")]) for n in EXAMPLES]
+    homes = {name: ROOT / "examples" / name for name in EXAMPLES}
+    wanted = [(name, name, next(home.glob("*.step")), [*home.glob("*.pdf")]) for name, home in homes.items()]
     if data is not None:
         wanted.append(("zx120", "excavator", data / "zx120" / "zx120.glb", []))
     made = []
@@ -225,9 +226,7 @@ class Worst:
 
     def see(self, positions: np.ndarray, quaternions: np.ndarray) -> bool:
         """Whether all are still somewhere."""
-        one, other = (
-            positions[b] + turned(quaternions[b], p) for b, p in zip(self._bodies, self._places, strict=True)
-        )
+        one, other = (positions[b] + turned(quaternions[b], p) for b, p in zip(self._bodies, self._places, strict=True))
         gaps = np.linalg.norm(one - other, axis=1)
         if not np.isfinite(gaps).all():
             self.gap = math.inf

@@ -1,11 +1,11 @@
-"""Levers through the oil against published times: raise, lower, dump, swing, by plain MuJoCo calls on the exported MJCF.
+"""Levers through the oil against published times: raise, lower, dump and swing, by plain calls of MuJoCo.
 
     python benchmarks/bench_hydraulics.py [FILE.usda …]     (default: both examples, built into a temporary folder)
 
-Of every test of a machine whose kind is a time: its lever is pushed whole, through `yellowiron.hydraulics` at the pump's
-flow and the engine's power, until the slide is within 2 % of its end, with the test's share of the rated payload in the
-tool. A slewing motor is turned at full lever, held against the sheet's swing speed, and timed over a quarter and half a
-turn. "published" says whether the sheet prints its figure as its maker's; an example value proves nothing.
+Of every test of a machine whose kind is a time: its lever is pushed whole, through `yellowiron.hydraulics` at the
+pump's flow and the engine's power, until the slide is within 2 % of its end, with the test's share of the rated payload
+in the tool. A slewing motor is turned at full lever, held against the sheet's swing speed, and timed over a quarter and
+half a turn. "published" says whether the sheet prints its figure as its maker's; an example value proves nothing.
 """
 
 from __future__ import annotations
@@ -21,8 +21,8 @@ from typing import Any
 
 import mujoco
 import numpy as np
-from bench_physics import EXAMPLES, built
 
+from bench_physics import EXAMPLES, built
 from yellowiron.hydraulics import Hydraulics
 from yellowiron.model.machine_tests import MachineTest
 from yellowiron.model.mechanism import Mechanism

@@ -138,9 +138,12 @@ def test_a_load_is_held_where_the_valve_closes() -> None:
 
 
 def test_a_slide_reaches_rated_speed_against_its_drive_s_own_damping() -> None:
-    """Whose force at rated speed is many times the relief's: levers through the oil were a tenth as fast as the pump."""
+    """Whose force at rated speed is many times the relief's: levers through the oil were a tenth as fast as the
+    pump."""
     drive = replace(slide("boom", (RING, PISTON)).drive, damping=1e7)
-    hydraulics = Hydraulics(machine(joints=(replace(slide("boom", (RING, PISTON)), drive=drive), *machine().joints[1:])))
+    hydraulics = Hydraulics(
+        machine(joints=(replace(slide("boom", (RING, PISTON)), drive=drive), *machine().joints[1:]))
+    )
     stroke, speed, mass = -0.5, 0.0, 2e4
     fastest = 0.0
     for _ in range(1000):

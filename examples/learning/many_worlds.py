@@ -26,6 +26,7 @@ SHARE, PERIOD = 0.3, 4.0
 
 
 def main() -> None:
+    """Steps the worlds and prints how fast, and how well the loops hold."""
     parser = argparse.ArgumentParser(description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter)
     parser.add_argument("machine", type=Path)
     parser.add_argument("--worlds", type=int, default=256)

@@ -1,10 +1,10 @@
 """Many machines at once in MuJoCo Warp, by the exported MJCF: loops intact, every world its own targets.
 
     yellowiron export out/excavator/excavator.usda --to mjcf --out out/mjcf
-    python examples/learning/many_worlds_mujoco.py out/mjcf/excavator.xml [--worlds 256] [--seconds 0.5] [--device cpu]
+    python examples/learning/many_worlds_mujoco.py out/mjcf/excavator.xml [--worlds 256] [--seconds 0.5]
 
-The machine is held by its root and its meshes are left out: nothing is there to touch. It needs `mujoco-warp` (the extra
-`newton`); with a GPU, `--device cuda:0`.
+The machine is held by its root and its meshes are left out: nothing is there to touch. It needs `mujoco-warp` (the
+extra `newton`); with a GPU, `--device cuda:0`.
 """
 
 from __future__ import annotations
@@ -23,6 +23,7 @@ SHARE, PERIOD = 0.3, 4.0
 
 
 def main() -> None:
+    """Steps the worlds and prints how fast, and how well the loops hold."""
     parser = argparse.ArgumentParser(description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter)
     parser.add_argument("machine", type=Path)
     parser.add_argument("--worlds", type=int, default=256)

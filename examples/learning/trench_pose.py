@@ -35,6 +35,7 @@ def play(env: TrenchPose, policy: np.ndarray, seed: int) -> tuple[float, float, 
 
 
 def main() -> None:
+    """Learns, and prints a line a generation."""
     parser = argparse.ArgumentParser(description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter)
     parser.add_argument("machine", type=Path)
     parser.add_argument("--generations", type=int, default=30)

@@ -193,12 +193,12 @@ def simulate(
     if rates:
         if dt is not None or test != "strokes":
             raise YellowironError(
-                "Rates are steps of their own, and for the strokes alone", where="--hz", hint="Leave --dt and --test out."
+                "Rates are steps of their own, and for the strokes alone",
+                where="--hz",
+                hint="Leave --dt and --test out.",
             )
-        chosen = ("file", "engine") if settings is None else (settings,)
-        return at_rates(
-            file, engine=engine, rates=rates, settings=chosen, base=base, payload=load, progress=progress
-        )
+        chosen: tuple[Literal["file", "engine"], ...] = ("file", "engine") if settings is None else (settings,)
+        return at_rates(file, engine=engine, rates=rates, settings=chosen, base=base, payload=load, progress=progress)
     document, _ = examine(
         file, engine=engine, test=test, base=base, payload=load, dt=dt, settings=settings or "file", progress=progress
     )

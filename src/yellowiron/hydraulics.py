@@ -28,8 +28,8 @@ TO_OIL = 0.85
 class Circuit:
     """One actuator's driven slide. In the slide's negative and positive direction: the `areas` (m²) of all its
     cylinders that the pump fills, the rated `speeds` (m/s) and the `forces` (N) at relief pressure. `sign`: +1 where
-    the actuator's positive sense extends it. `lower` and `upper` are its ends; `softness` the drive's, m/N; `lag` its damping by its
-    stiffness, s: so long its slide comes behind a target that moves."""
+    the actuator's positive sense extends it. `lower` and `upper` are its ends; `softness` the drive's, m/N; `lag` its
+    damping by its stiffness, s: so long its slide comes behind a target that moves."""
 
     actuator: str
     slide: str

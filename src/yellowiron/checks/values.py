@@ -56,9 +56,9 @@ class StageCollider:
 class StageBody:
     """A rigid body: `pose` (4, 4) without scale, the `scale` along its axes, `shear` and whether it is `mirrored`.
     `mass` and `density` as authored; `center_of_mass` in the world; `inertia` the principal moments. `bounds` (2, 3)
-    is the box of all its geometry, `solid` that of its colliders, `drawn` that of what collides with nothing; `weightless`: gravity
-    is off on it; `disc_axis` the unit vector about which its inertia
-    is that of a disc, or None."""
+    is the box of all its geometry, `solid` that of its colliders, `drawn` that of what collides with nothing;
+    `weightless`: gravity is off on it; `disc_axis` the unit vector about which its inertia is that of a disc, or None.
+    """
 
     path: str
     parent_body: str

@@ -36,6 +36,11 @@ REACHED = 0.05
 """Of its stroke: so near to a wanted stroke its valve begins to close."""
 
 
+def register(name: str, task: type[MachineEnv]) -> None:
+    """Gives Gymnasium a task's name, for `gymnasium.make`."""
+    gymnasium.register(name, entry_point=task)
+
+
 class MachineEnv(gymnasium.Env[Any, Any]):
     """What all tasks have in common; a task adds a goal, `goal()` and `score()`.
 

@@ -15,7 +15,7 @@ import mujoco
 import numpy as np
 
 from yellowiron.kinematics import ClosedChain
-from yellowiron.learn.environment import MachineEnv, gymnasium
+from yellowiron.learn.environment import MachineEnv, register
 from yellowiron.learn.model import BOULDER, MachineModel, load_machine
 from yellowiron.model.geometry import Floats
 
@@ -219,4 +219,4 @@ def _reachable(machine: MachineModel) -> Floats:
 
 
 for _name, _task in (("TrenchPose", TrenchPose), ("LoadBoulder", LoadBoulder), ("DriveTo", DriveTo)):
-    gymnasium.register(f"yellowiron/{_name}-v0", entry_point=_task)
+    register(f"yellowiron/{_name}-v0", _task)

@@ -48,8 +48,9 @@ def examine(
     """What `test` names, as a document (docs: simulate), and what the strokes leave to be looked at.
 
     In a child process, so that an engine which crashes, or takes no step for `patience` seconds, is a
-    `YellowironError`. `base`, `payload` and `settings` are for the strokes; driving is empty, the template's tests say their own.
-    Errors as in `simulate`, `drive` and `run_tests`; a machine that has nothing to drive on is no error but a reason.
+    `YellowironError`. `base`, `payload` and `settings` are for the strokes; driving is empty, the template's tests say
+    their own. Errors as in `simulate`, `drive` and `run_tests`; a machine that has nothing to drive on is no error but
+    a reason.
     """
     if dt is not None:
         check_timestep(dt)

@@ -95,7 +95,13 @@ def too_stiff(view: View) -> Remarks:
     for island in view.islands:
         for joint in island.joints:
             for drive in joint.drives:
-                if drive.acceleration or joint.cut or drive.instance not in _KNOWN or island.mass <= 0.0 or island.size <= 0.0:
+                if (
+                    drive.acceleration
+                    or joint.cut
+                    or drive.instance not in _KNOWN
+                    or island.mass <= 0.0
+                    or island.size <= 0.0
+                ):
                     continue
                 load = island.mass * (1.0 if drive.instance in ("linear", *LINEAR) else island.size**2)
                 if math.isinf(drive.stiffness) or drive.stiffness > load * (2.0 * math.pi * _STIFFEST) ** 2:
@@ -190,7 +196,8 @@ def gains_of_force(view: View) -> Remarks:
             if drive.acceleration and hard:
                 yield (
                     joint.path,
-                    f"Its stiffness is {drive.stiffness:.3g} 1/s² and its damping {drive.damping:.3g} 1/s, whatever it moves.",
+                    f"Its stiffness is {drive.stiffness:.3g} 1/s² and its damping {drive.damping:.3g} 1/s, whatever it "
+                    "moves.",
                 )
 
 

@@ -24,7 +24,8 @@ _STAGES = 5.0
 _PLAY = 0.05
 """Of a stroke: so much a cylinder's halves as they are drawn may fall short."""
 _OTHERWISE = 0.1
-"""Of its range: so far from its limits a slide's ends bring no hinge of its loop where they are those it was made for."""
+"""Of its range: a slide's ends, where they are those it was made for, bring a hinge of its loop this near to its
+limits."""
 _RADIANS = 2.0 * math.pi
 
 
@@ -209,7 +210,8 @@ def outside(view: View) -> Remarks:
 def mirrored(view: View) -> Remarks:
     """A slide's limits are mirrored about the drawn pose."""
     for island in view.islands:
-        for slide, before, after in cylinders(island):
+        for cylinder in cylinders(island):
+            slide, before, after = cylinder
             if slide.lower is None or slide.upper is None or slide.lower >= slide.upper:
                 continue
             ends = (slide.lower - slide.coordinate, slide.upper - slide.coordinate)
@@ -221,7 +223,11 @@ def mirrored(view: View) -> Remarks:
                     f"From {told[0]} to {told[1]} its rod leaves the barrel or goes through its end; from {told[2]} to "
                     f"{told[3]} it would not.",
                 )
-            elif _off(island, (slide, before, after), ends) > _OTHERWISE > 4.0 * _off(island, (slide, before, after), other):
+            elif (
+                _off(island, (slide, before, after), ends)
+                > _OTHERWISE
+                > 4.0 * _off(island, (slide, before, after), other)
+            ):
                 yield (
                     slide.path,
                     f"From {told[0]} to {told[1]} the pivots of its loop would pass their own limits; those are right "
@@ -235,7 +241,9 @@ def _off(island: Island, cylinder: tuple[StageJoint, StageJoint, StageJoint], en
     slide, before, after = cylinder
     known = {before.path, slide.path, after.path}
     loops = [{j.path: j for j in loop.joints if j.type != "fixed"} for loop in island.loops]
-    third = [j for loop in loops if len(loop) == 4 and known <= loop.keys() for j in loop.values() if j.path not in known]
+    third = [
+        j for loop in loops if len(loop) == 4 and known <= loop.keys() for j in loop.values() if j.path not in known
+    ]
     if len(third) != 1 or before.type != "revolute" or third[0].type not in ("revolute", "spherical"):
         return 0.0
     pivot, normal = third[0], before.axis
@@ -269,9 +277,7 @@ def _interior(corners: list[Floats], index: int, longer: float) -> float:
     return math.acos(cosine) if abs(cosine) <= 1.0 else math.nan
 
 
-def _holds_together(
-    slide: StageJoint, before: StageJoint, after: StageJoint, ends: tuple[float, float]
-) -> bool:
+def _holds_together(slide: StageJoint, before: StageJoint, after: StageJoint, ends: tuple[float, float]) -> bool:
     """Whether a cylinder's halves stay in each other between `ends` (m from the drawn pose), and neither passes the
     other's eye; true where a half has no geometry."""
     one, other = slide.spans

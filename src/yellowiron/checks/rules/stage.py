@@ -173,8 +173,8 @@ def few_iterations(view: View) -> Remarks:
             low, high = physx_gap(_USUAL, max(value, floor))
             yield (
                 path,
-                f"{name} is {value:g}, and cut joints close loops here: expect pins {low:.2g} to {high:.2g} mm apart at "
-                f"{_USUAL:g} Hz.",
+                f"{name} is {value:g}, and cut joints close loops here: expect pins {low:.2g} to {high:.2g} mm apart "
+                f"at {_USUAL:g} Hz.",
             )
 
 
@@ -193,7 +193,8 @@ def long_steps(view: View) -> Remarks:
         low, high = physx_gap(rate, _FILE) if name.startswith("physx") else newton_gap(rate)
         yield (
             path,
-            f"Steps of {1e3 / rate:.3g} ms, and cut joints close loops here: expect pins {low:.2g} to {high:.2g} mm apart.",
+            f"Steps of {1e3 / rate:.3g} ms, and cut joints close loops here: expect pins {low:.2g} to {high:.2g} mm "
+            "apart.",
         )
 
 

@@ -65,8 +65,8 @@ def simulate(
     step against the closed-chain kinematics at the strokes the engine measures.
 
     `base`: `fixed` (in the air) or `floating` (on the ground, on its wheels or tracks), by default `usual_base`; `dt`
-    in seconds (default: the engine's); `settings`: what a build writes, or each `engine`'s own defaults; `actuators`: only these. Findings SIM001 … SIM005 say what fell short of the
-    engine's bars.
+    in seconds (default: the engine's); `settings`: what a build writes, or each engine's own defaults; `actuators`:
+    only these. Findings SIM001 … SIM005 say what fell short of the engine's bars.
     Raises `YellowironError` for an unknown engine or actuator, an engine that is not installed, and an unusable file.
     """
     entry = find_engine(engine)
