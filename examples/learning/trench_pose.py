@@ -1,10 +1,10 @@
-"""Learns to bring a bucket to poses in a trench: the cross-entropy method over a linear policy, with numpy alone.
+"""Learns to bring a bucket to poses in a trench: the cross-entropy method over a small policy, with numpy alone.
 
     python examples/learning/trench_pose.py out/excavator/excavator.usda [--generations 30] [--out curve.json]
 
-A policy is one matrix from what an observation says of the goal (what is left, and where the tool is) to the levers.
-Each generation draws 24 policies, plays each on the same 6 goals, and goes on from the 6 best. The same seed gives the
-same curve. It takes some minutes on one core.
+A policy is one matrix from what an observation says of the goal to the levers: what is left, and that again times where
+the tool is, so that a lever's gain may depend on the pose. Each generation draws 24 policies, plays each on the same 5
+goals, and goes on from the 6 best. The same seed gives the same curve. It takes some minutes on one core.
 """
 
 from __future__ import annotations
@@ -18,10 +18,17 @@ import numpy as np
 
 from yellowiron.learn import TrenchPose
 
-POLICIES, ELITE, GOALS = 24, 6, 6
+POLICIES, ELITE, GOALS, TRIED = 24, 6, 5, 12
 TOLD = 8
 """Numbers at an observation's end that say the goal."""
-SPREAD, LEAST = 1.0, 0.05
+SPREAD, BENT, LEAST = 1.0, 0.5, 0.05
+"""The first spread of a policy's numbers, of those that depend on the pose, and the least."""
+
+
+def features(seen: np.ndarray) -> np.ndarray:
+    """What is left (4,), the same times where the tool is (16,), and 1."""
+    left, place = seen[-TOLD:-4], seen[-4:]
+    return np.concatenate([left, np.outer(left, place).ravel(), [1.0]])
 
 
 def play(env: TrenchPose, policy: np.ndarray, seed: int) -> tuple[float, float, bool]:
@@ -29,7 +36,7 @@ def play(env: TrenchPose, policy: np.ndarray, seed: int) -> tuple[float, float, 
     seen, info = env.reset(seed=seed)
     total, done = 0.0, False
     while not done:
-        seen, reward, ended, truncated, info = env.step(np.tanh(policy @ np.append(seen[-TOLD:], 1.0)))
+        seen, reward, ended, truncated, info = env.step(np.tanh(policy @ features(seen)))
         total, done = total + reward, ended or truncated
     return total, float(np.linalg.norm(seen[-TOLD:][:3])), info["success"]
 
@@ -44,8 +51,9 @@ def main() -> None:
     given = parser.parse_args()
     env = TrenchPose(given.machine, timestep=0.004)
     rng = np.random.default_rng(given.seed)
-    shape = (len(env.levers), TOLD + 1)
-    mean, spread = np.zeros(shape), np.full(shape, SPREAD)
+    first = np.concatenate([np.full(4, SPREAD), np.full(16, BENT), [BENT]])
+    shape = (len(env.levers), len(first))
+    mean, spread = np.zeros(shape), np.broadcast_to(first, shape).copy()
     curve, begun, steps = [], time.perf_counter(), 0
     for generation in range(given.generations):
         drawn = mean + spread * rng.standard_normal((POLICIES, *shape))
@@ -54,15 +62,16 @@ def main() -> None:
         best = drawn[np.argsort(-scores)[:ELITE]]
         mean, spread = best.mean(axis=0), np.maximum(best.std(axis=0), LEAST)
         # Goals that no policy was chosen by.
-        tried = [play(env, mean, 10**6 + number) for number in range(20)]
+        tried = [play(env, mean, 10**6 + number) for number in range(TRIED)]
         reward, apart, done = (float(np.mean(column)) for column in zip(*tried, strict=True))
-        steps += (POLICIES * GOALS + 20) * round(env.seconds / env.dt)
+        steps += (POLICIES * GOALS + TRIED) * round(env.seconds / env.dt)
         seconds = time.perf_counter() - begun
         curve.append({"generation": generation + 1, "reward": reward, "apart_m": apart, "there": done})
         print(f"{generation + 1:3d}  {seconds:5.0f} s  reward {reward:8.1f}  ends {apart:.2f} m off, {done:.0%} there")
+        if given.out:
+            told = {"machine": given.machine.stem, "seed": given.seed, "curve": curve, "policy": mean.tolist()}
+            given.out.write_text(json.dumps(told, indent=1) + "\n", encoding="utf-8")
     print(f"{steps / (time.perf_counter() - begun):.0f} steps/s")
-    if given.out:
-        given.out.write_text(json.dumps({"curve": curve, "policy": mean.tolist()}, indent=1) + "\n", encoding="utf-8")
 
 
 if __name__ == "__main__":

@@ -28,6 +28,10 @@ BOULDER = "boulder"
 """The name of a body that a task may load."""
 ROCK = 2600.0
 """kg/m³."""
+_RUBS = (0.7, 0.005)
+"""Its friction, sliding and turning on the spot."""
+_ROLLS = 0.3
+"""Of its radius: how far the ground's push stands ahead of its middle as it rolls. A rock has flat sides."""
 _SHARE = 0.2
 """A boulder's radius, of the tool's shortest extent."""
 _SIZES = (0.12, 0.5)
@@ -100,7 +104,14 @@ def _load(file: Path, _: int, base: Base, boulder: bool, timestep: float) -> Mac
             body = spec.worldbody.add_body(name=BOULDER)
             body.add_freejoint(name=BOULDER)
             mass = ROCK * 4.0 / 3.0 * np.pi * radius**3
-            body.add_geom(name=BOULDER, type=mujoco.mjtGeom.mjGEOM_SPHERE, size=[radius, 0.0, 0.0], mass=mass)
+            body.add_geom(
+                name=BOULDER,
+                type=mujoco.mjtGeom.mjGEOM_SPHERE,
+                size=[radius, 0.0, 0.0],
+                mass=mass,
+                condim=6,
+                friction=[*_RUBS, _ROLLS * radius],
+            )
         for key in list(spec.keys):
             spec.delete(key)
         model = spec.compile()
