@@ -83,7 +83,8 @@ def load(mechanism: Mechanism, document: Path, payload: float, base: str = "fixe
         body = mechanism.body(site.body)
         ball = 0.4 * payload * (payload / 1800.0 * 0.75 / math.pi) ** (2.0 / 3.0)
         carried = spec.body(site.body).add_body(name="payload", pos=np.subtract(site.position, body.origin))
-        carried.mass, carried.inertia, carried.explicitinertial = payload, [ball] * 3, True
+        carried.mass, carried.inertia, carried.ipos = payload, [ball] * 3, [0.0] * 3
+        carried.explicitinertial = True
     model = spec.compile()
     data = mujoco.MjData(model)
     if model.nkey:

@@ -184,3 +184,33 @@ def test_without_gymnasium_a_sentence_says_what_to_install() -> None:
     )
     ran = subprocess.run([sys.executable, "-c", script], capture_output=True, text=True, check=True)
     assert ran.stdout.strip() == "pip install 'yellowiron[learn]'"
+
+
+@pytest.mark.slow
+def test_a_loader_can_take_up_the_boulder(built_loader: Any) -> None:
+    """The edge low under it, then curled and raised while the machine drives on."""
+    env = LoadBoulder(built_loader.folder / "wheel_loader.usda")
+    names = [lever.name for lever in env.levers]
+
+    def act(**told: float) -> np.ndarray:
+        return np.array([float(told.get(name, 0.0)) for name in names])
+
+    for seed in range(2):
+        env.reset(seed=seed)
+        met, curled, info = False, False, {"success": False}
+        for _ in range(300):
+            height = float(env.data.site(env.machine.tip.name).xpos[2])
+            floor = env.data.body(env.machine.tip.body).xmat.reshape(3, 3)[:, 0]
+            pitch = float(np.degrees(np.arctan2(floor[2], floor[0])))
+            met = met or env.goal()[0] < 0.92
+            curled = curled or pitch > 35.0
+            if curled:
+                action = act(boom=1.0, bucket=0.2)
+            elif met:
+                action = act(drive=0.5, bucket=1.0, boom=0.3)
+            else:
+                low = abs(height - 0.06) < 0.03
+                action = act(drive=0.25 * low, boom=4.0 * (0.06 - height), bucket=0.05 * (-8.0 - pitch))
+            _, _, _, _, info = env.step(action)
+        assert info["success"], seed
+        assert env.data.body("boulder").xpos[2] > 3.0
