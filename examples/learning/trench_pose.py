@@ -2,9 +2,9 @@
 
     python examples/learning/trench_pose.py out/excavator/excavator.usda [--generations 30] [--out curve.json]
 
-A policy is one matrix from what an observation says of the goal to the levers: what is left, and that again times where
-the tool is, so that a lever's gain may depend on the pose. Each generation draws 24 policies, plays each on the same 5
-goals, and goes on from the 6 best. The same seed gives the same curve. It takes some minutes on one core.
+A policy is one matrix from what an observation says of the goal (what is left, and where the tool is) to the levers.
+Each generation draws 24 policies, plays each on the same 6 goals, and goes on from the 6 best. The same seed gives the
+same curve. It takes some minutes on one core.
 """
 
 from __future__ import annotations
@@ -18,17 +18,11 @@ import numpy as np
 
 from yellowiron.learn import TrenchPose
 
-POLICIES, ELITE, GOALS, TRIED = 24, 6, 5, 12
+POLICIES, ELITE, GOALS, TRIED = 24, 6, 6, 20
 TOLD = 8
 """Numbers at an observation's end that say the goal."""
-SPREAD, BENT, LEAST = 1.0, 0.5, 0.05
-"""The first spread of a policy's numbers, of those that depend on the pose, and the least."""
-
-
-def features(seen: np.ndarray) -> np.ndarray:
-    """What is left (4,), the same times where the tool is (16,), and 1."""
-    left, place = seen[-TOLD:-4], seen[-4:]
-    return np.concatenate([left, np.outer(left, place).ravel(), [1.0]])
+SPREAD, LEAST = 1.0, 0.05
+"""The first spread of a policy's numbers, and the least."""
 
 
 def play(env: TrenchPose, policy: np.ndarray, seed: int) -> tuple[float, float, bool]:
@@ -36,7 +30,7 @@ def play(env: TrenchPose, policy: np.ndarray, seed: int) -> tuple[float, float, 
     seen, info = env.reset(seed=seed)
     total, done = 0.0, False
     while not done:
-        seen, reward, ended, truncated, info = env.step(np.tanh(policy @ features(seen)))
+        seen, reward, ended, truncated, info = env.step(np.tanh(policy @ np.append(seen[-TOLD:], 1.0)))
         total, done = total + reward, ended or truncated
     return total, float(np.linalg.norm(seen[-TOLD:][:3])), info["success"]
 
@@ -51,9 +45,8 @@ def main() -> None:
     given = parser.parse_args()
     env = TrenchPose(given.machine, timestep=0.004)
     rng = np.random.default_rng(given.seed)
-    first = np.concatenate([np.full(4, SPREAD), np.full(16, BENT), [BENT]])
-    shape = (len(env.levers), len(first))
-    mean, spread = np.zeros(shape), np.broadcast_to(first, shape).copy()
+    shape = (len(env.levers), TOLD + 1)
+    mean, spread = np.zeros(shape), np.full(shape, SPREAD)
     curve, begun, steps = [], time.perf_counter(), 0
     for generation in range(given.generations):
         drawn = mean + spread * rng.standard_normal((POLICIES, *shape))
