@@ -30,7 +30,7 @@ def test_every_parameter_of_a_sensor_is_documented(root: Path) -> None:
         assert {p for p in parameters if f"`{p}`" not in rows[name]} == set(), name
 
 
-@pytest.mark.parametrize("name", ["isaac-lab", "isaac-sim", "learners"])
+@pytest.mark.parametrize("name", ["isaac-lab", "isaac-sim", "learners", "learning"])
 def test_code_on_the_pages_is_python(root: Path, name: str) -> None:
     for block in blocks(root / "docs" / f"{name}.md"):
         ast.parse(block)
@@ -111,6 +111,20 @@ def test_the_learners_page_runs(root: Path, built: Path, tmp_path: Path, monkeyp
     turned = names["chain"].coordinate(names["state"], names["boom"].pivot)
     assert turned == pytest.approx(float(names["boom"].angle(0.2)), abs=2e-4)
     assert names["controls"]["boom"] > 0.0 > names["controls"]["bucket"]
+
+
+@pytest.mark.slow
+def test_the_environments_page_runs(root: Path, built: Path, tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
+    pytest.importorskip("gymnasium", reason="needs pip install 'yellowiron[learn]'")
+    (tmp_path / "out").mkdir()
+    (tmp_path / "out" / "wheel_loader").symlink_to(built)
+    monkeypatch.chdir(tmp_path)
+    names: dict[str, Any] = {}
+    for block in blocks(root / "docs" / "learning.md"):
+        exec(compile(block, "docs/learning.md", "exec"), names)
+    assert names["seen"].shape == names["env"].observation_space.shape
+    assert len(names["levers"]) == len(names["env"].action_space.low)
+    assert names["where"]
 
 
 def test_pages_made_from_docstrings_are_those_of_the_code(root: Path) -> None:

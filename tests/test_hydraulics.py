@@ -137,6 +137,28 @@ def test_a_load_is_held_where_the_valve_closes() -> None:
         assert hydraulics.step({}, sagged, STEP)["boom_slide"] == pytest.approx(held, abs=1e-12)
 
 
+def test_a_slide_reaches_rated_speed_against_its_drive_s_own_damping() -> None:
+    """Whose force at rated speed is many times the relief's: levers through the oil were a tenth as fast as the
+    pump."""
+    drive = replace(slide("boom", (RING, PISTON)).drive, damping=1e7)
+    hydraulics = Hydraulics(
+        machine(joints=(replace(slide("boom", (RING, PISTON)), drive=drive), *machine().joints[1:]))
+    )
+    stroke, speed, mass = -0.5, 0.0, 2e4
+    fastest = 0.0
+    for _ in range(1000):
+        target = hydraulics.step({"boom": 1.0}, {**REST, "boom_slide": stroke}, STEP)["boom_slide"]
+        # The drive as an engine has it, its damping implicit.
+        push = min(1e8 * (target - stroke), 1e7 * FLOW / PISTON)
+        force = max(-PRESSURE * RING, min(PRESSURE * PISTON, push - 1e7 * speed))
+        free = (speed + STEP / mass * push) / (1.0 + STEP / mass * 1e7)
+        bound = speed + STEP / mass * PRESSURE * PISTON
+        speed = min(free, bound) if force > 0.0 else free
+        stroke += STEP * speed
+        fastest = max(fastest, speed)
+    assert fastest == pytest.approx(FLOW / PISTON, rel=0.03)
+
+
 def test_against_a_wall_the_target_stays_within_the_drive_s_reach() -> None:
     """Else it would have run away, and the slide would jump when the wall gives way."""
     hydraulics = Hydraulics(machine())

@@ -20,7 +20,7 @@ from yellowiron import checks, library, specs
 from yellowiron.endpoint import Endpoint, ModelOptions
 from yellowiron.model.alignment import Alignment
 from yellowiron.model.assembly import Assembly
-from yellowiron.model.errors import OutputError
+from yellowiron.model.errors import OutputError, YellowironError
 from yellowiron.model.finding import Finding
 from yellowiron.model.mechanism import Measurement, Mechanism
 from yellowiron.model.specification import Specifications
@@ -177,16 +177,31 @@ def simulate(
     base: Literal["fixed", "floating"] | None = None,
     payload: float | str = 0.0,
     dt: float | None = None,
+    settings: Literal["file", "engine"] | None = None,
+    rates: Sequence[float] = (),
     progress: Progress = lambda words: None,
 ) -> dict[str, Any]:
     """A machine driven in an engine, as a document (docs/simulate.md): every actuator through its stroke, each step
     compared with the kinematics; driving about; the template's tests. `payload` is in kilograms, or "rated"; `dt` in
-    seconds (default: the engine's own)."""
-    from yellowiron.simulation import examine, parse_payload
+    seconds (default: the engine's own). `settings`: what a build writes (the default), or the engine's own defaults,
+    for the strokes alone. With `rates`, steps a second, the strokes run at each of them with both settings, or with
+    those that are named, and the document is a table of how far the pins come apart."""
+    from yellowiron.simulation import at_rates, examine, parse_payload
 
     file = _file(machine)
     load = parse_payload(payload if isinstance(payload, str) else repr(float(payload)), file)
-    document, _ = examine(file, engine=engine, test=test, base=base, payload=load, dt=dt, progress=progress)
+    if rates:
+        if dt is not None or test != "strokes":
+            raise YellowironError(
+                "Rates are steps of their own, and for the strokes alone",
+                where="--hz",
+                hint="Leave --dt and --test out.",
+            )
+        chosen: tuple[Literal["file", "engine"], ...] = ("file", "engine") if settings is None else (settings,)
+        return at_rates(file, engine=engine, rates=rates, settings=chosen, base=base, payload=load, progress=progress)
+    document, _ = examine(
+        file, engine=engine, test=test, base=base, payload=load, dt=dt, settings=settings or "file", progress=progress
+    )
     return document
 
 

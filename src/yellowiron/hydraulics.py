@@ -28,7 +28,8 @@ TO_OIL = 0.85
 class Circuit:
     """One actuator's driven slide. In the slide's negative and positive direction: the `areas` (m²) of all its
     cylinders that the pump fills, the rated `speeds` (m/s) and the `forces` (N) at relief pressure. `sign`: +1 where
-    the actuator's positive sense extends it. `lower` and `upper` are its ends, `softness` the drive's, m/N."""
+    the actuator's positive sense extends it. `lower` and `upper` are its ends; `softness` the drive's, m/N; `lag` its
+    damping by its stiffness, s: so long its slide comes behind a target that moves."""
 
     actuator: str
     slide: str
@@ -39,6 +40,7 @@ class Circuit:
     lower: float
     upper: float
     softness: float
+    lag: float = 0.0
 
 
 class Hydraulics:
@@ -77,6 +79,7 @@ class Hydraulics:
         self._spool = spool
         self._openings = dict.fromkeys(self.circuits, 0.0)
         self._targets: dict[str, float] = {}
+        self._strokes: dict[str, float] = {}
         self.speeds: Mapping[str, float] = dict.fromkeys(self.circuits, 0.0)
         """Actuator → the speed that its oil gives it, m/s of its slide, at the last step."""
 
@@ -114,7 +117,7 @@ class Hydraulics:
             opening = self._openings[name]
             way = int(opening > 0.0)
             speeds[name] = math.copysign(share * demands[name][0] / circuit.areas[way], opening)
-            targets[circuit.slide] = self._target(circuit, strokes[circuit.slide], speeds[name] * seconds)
+            targets[circuit.slide] = self._target(circuit, strokes[circuit.slide], speeds[name], seconds)
         self.speeds = speeds
         return targets
 
@@ -136,13 +139,16 @@ class Hydraulics:
         power = share * sum(each * pressure for each, pressure in demands.values())
         return share * (min(1.0, self.power / power) if power > 0.0 else 1.0)
 
-    def _target(self, circuit: Circuit, stroke: float, way: float) -> float:
-        """The target, moved on; no farther from where the slide is than the drive's whole force reaches: oil that
-        cannot move it goes over the relief valve."""
-        target = self._targets.get(circuit.slide, stroke) + way
-        if way != 0.0:
+    def _target(self, circuit: Circuit, stroke: float, speed: float, seconds: float) -> float:
+        """The target, moved on; no farther from where the slide is than the drive's whole force reaches, its damping
+        at the slide's own speed overcome: oil that cannot move it goes over the relief valve."""
+        target = self._targets.get(circuit.slide, stroke) + speed * seconds
+        moved = stroke - self._strokes.get(circuit.slide, stroke)
+        self._strokes[circuit.slide] = stroke
+        if speed != 0.0:
+            ahead = circuit.lag * (moved / seconds if seconds > 0.0 else 0.0)
             back, forth = (force * circuit.softness for force in circuit.forces)
-            target = max(stroke - back, min(stroke + forth, target))
+            target = max(stroke - back + min(ahead, 0.0), min(stroke + forth + max(ahead, 0.0), target))
         self._targets[circuit.slide] = target = max(circuit.lower, min(circuit.upper, target))
         return target
 
@@ -166,7 +172,7 @@ def _circuit(mechanism: Mechanism, actuator: Actuator) -> Circuit | None:
     ]
     return Circuit(
         actuator.name, joint.name, lead.sign, (areas[0], areas[1]), drive.speeds, drive.forces,
-        joint.lower, joint.upper, 1.0 / drive.stiffness,
+        joint.lower, joint.upper, 1.0 / drive.stiffness, drive.damping / drive.stiffness,
     )  # fmt: skip
 
 

@@ -56,8 +56,9 @@ class StageCollider:
 class StageBody:
     """A rigid body: `pose` (4, 4) without scale, the `scale` along its axes, `shear` and whether it is `mirrored`.
     `mass` and `density` as authored; `center_of_mass` in the world; `inertia` the principal moments. `bounds` (2, 3)
-    is the box of all its geometry, `solid` that of its colliders; `disc_axis` the unit vector about which its inertia
-    is that of a disc, or None."""
+    is the box of all its geometry, `solid` that of its colliders, `drawn` that of what collides with nothing;
+    `weightless`: gravity is off on it; `disc_axis` the unit vector about which its inertia is that of a disc, or None.
+    """
 
     path: str
     parent_body: str
@@ -75,19 +76,24 @@ class StageBody:
     solid: Floats | None
     has_collider: bool
     disc_axis: Floats | None = None
+    drawn: Floats | None = None
+    weightless: bool = False
     filtered: tuple[str, ...] = ()
     record: Mapping[str, Any] = field(default_factory=dict)
 
 
 @dataclass(frozen=True)
 class StageDrive:
-    """A `PhysicsDriveAPI` instance: N/m and N·s/m, or N·m/rad and N·m·s/rad; forces N or N·m; targets m or rad."""
+    """A `PhysicsDriveAPI` instance: N/m and N·s/m, or N·m/rad and N·m·s/rad; forces N or N·m; targets m or rad, m/s or
+    rad/s. One of `acceleration` is told for a mass of 1: its gains are 1/s² and 1/s."""
 
     instance: str
     stiffness: float
     damping: float
     max_force: float
     target_position: float
+    target_velocity: float = 0.0
+    acceleration: bool = False
 
     @property
     def acts(self) -> bool:
@@ -114,7 +120,8 @@ class StageJoint:
     `lower` and `upper` are of a hinge's or slide's coordinate; `coordinate` is where it is drawn. `held` means that
     something other than a drive holds it (friction, a spring, a mimic), `damped` that something slows it. `leader` is
     the joint that it follows: "" where its mimic names none, None where it has no mimic; `ratio` and `offset` (m or
-    rad) are the mimic's."""
+    rad) are the mimic's. `spans`: how far the geometry of a slide's two bodies reaches along its axis, metres from the
+    world's origin."""
 
     path: str
     type: str
@@ -132,6 +139,7 @@ class StageJoint:
     leader: str | None = None
     ratio: float = 1.0
     offset: float = 0.0
+    spans: tuple[tuple[float, float] | None, tuple[float, float] | None] = (None, None)
     record: Mapping[str, Any] = field(default_factory=dict)
 
     @property

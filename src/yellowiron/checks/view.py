@@ -17,7 +17,9 @@ from yellowiron.model.geometry import Floats
 @dataclass(frozen=True, eq=False)
 class View:
     """A stage, read once. `roots` are prims with `PhysicsArticulationRootAPI`; `self_collision` maps those that say so
-    to whether their links may collide; `islands` are what joints hold together; `record` is what a yellowiron build
+    to whether their links may collide; `solver` has (prim, attribute, value) of iterations and steps as authored,
+    `lost_filters` (prim, path) of filtered pairs with nothing, `groundless` groups of colliders that meet nothing that
+    stands still; `islands` are what joints hold together; `record` is what a yellowiron build
     wrote on the machine's prim, `machine` that prim's path and `frame` (4, 4) its place."""
 
     name: str
@@ -30,6 +32,9 @@ class View:
     roots: tuple[str, ...]
     self_collision: Mapping[str, bool]
     scenes: tuple[tuple[str, float | None], ...]
+    solver: tuple[tuple[str, str, float], ...]
+    lost_filters: tuple[tuple[str, str], ...]
+    groundless: tuple[str, ...]
     not_numbers: tuple[tuple[str, str], ...]
     broken: tuple[tuple[str, str], ...]
     missing_assets: tuple[str, ...]

@@ -84,16 +84,35 @@ def simulate(
         typer.Option("--test", help="Every actuator's stroke; driving; the template's tests; or all."),
     ] = "strokes",
     dt: Annotated[float | None, typer.Option("--dt", help="Time step in seconds (default: the engine's).")] = None,
+    settings: Annotated[
+        Literal["file", "engine"] | None,
+        typer.Option("--settings", help="What a build writes (the default), or the engine's own defaults."),
+    ] = None,
+    hz: Annotated[
+        str, typer.Option("--hz", help="Steps a second, as 60,120,240: a table of how far pins come apart.")
+    ] = "",
 ) -> None:
     """Drive every actuator in an engine, compare every step with the kinematics; drive about; test the hydraulics."""
-    from yellowiron.report import simulation_table
+    from yellowiron.report import rate_table, simulation_table
 
     with progress_shown() as progress:
         document = yellowiron.simulate(
-            machine, engine=engine, test=test, base=base, payload=payload, dt=dt, progress=progress
-        )
-    answer(document, simulation_table(document))
+            machine, engine=engine, test=test, base=base, payload=payload, dt=dt, settings=settings, rates=_rates(hz),
+            progress=progress,
+        )  # fmt: skip
+    answer(document, rate_table(document) if "rates" in document else simulation_table(document))
     raise typer.Exit(1 if document["findings"] else 0)
+
+
+def _rates(text: str) -> tuple[float, ...]:
+    """Steps a second, as a person lists them."""
+    try:
+        found = tuple(float(each) for each in text.split(",") if each.strip())
+    except ValueError:
+        found = (0.0,)
+    if not all(10.0 <= rate <= 100_000.0 for rate in found):
+        raise YellowironError("These are no rates", where=f"--hz {text}", hint="Write steps a second, as 60,120,240.")
+    return found
 
 
 @command(app)

@@ -16,12 +16,13 @@ if TYPE_CHECKING:
     from yellowiron.exporters.geometry import BodyGeometry, Geometry, read_geometry
     from yellowiron.exporters.link_table import LinkTable, links_of
     from yellowiron.exporters.mjcf.actuators import actuator_names
-    from yellowiron.exporters.mjcf.document import export_mjcf, integrator_of
+    from yellowiron.exporters.mjcf.document import TIMESTEP, export_mjcf, integrator_of
     from yellowiron.exporters.registry import EXPORTERS, Exporter, export, exporter_names, find_exporter, unsaid
     from yellowiron.exporters.ros.joint_states import JointStates
 
 __all__ = [
     "EXPORTERS",
+    "TIMESTEP",
     "BodyGeometry",
     "Exporter",
     "Geometry",
@@ -42,6 +43,7 @@ __getattr__, __dir__ = lazy_names(
     __name__,
     {
         "EXPORTERS": "registry",
+        "TIMESTEP": "mjcf.document",
         "BodyGeometry": "geometry",
         "Exporter": "registry",
         "Geometry": "geometry",

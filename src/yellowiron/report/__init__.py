@@ -19,6 +19,7 @@ if TYPE_CHECKING:
         lint_table,
         measurement_table,
         proposal_table,
+        rate_table,
         simulation_table,
         specification_table,
     )
@@ -52,6 +53,7 @@ __all__ = [
     "missing_limits",
     "page",
     "proposal_table",
+    "rate_table",
     "report_document",
     "simulation_table",
     "specification_entry",
@@ -80,6 +82,7 @@ __getattr__, __dir__ = lazy_names(
         "missing_limits": "document",
         "page": "html.page",
         "proposal_table": "console",
+        "rate_table": "console",
         "report_document": "document",
         "simulation_table": "console",
         "specification_entry": "document",

@@ -189,6 +189,26 @@ def simulation_table(document: Mapping[str, Any]) -> RenderableType:
     return Group(*blocks[:-1])
 
 
+def rate_table(document: Mapping[str, Any]) -> RenderableType:
+    """How far a machine's pins come apart at several rates, with what a build writes and with an engine's defaults."""
+    load = f", payload {document['payload_kg']:g} kg" if document["payload_kg"] else ""
+    numbers = ("Hz", "Pins apart, mm", "Pins off, mm", "Steps/s")
+    table = _table("Settings", *numbers, "Worst", right=numbers)
+    for row in document["rates"]:
+        shown = [_millimetres(row[key]) for key in ("loop_gap_mm", "pin_error_mm")]
+        speed = "" if row["steps_per_second"] is None else str(row["steps_per_second"])
+        worst = row["reason"] or row["pin_error_at"]
+        table.add_row(_SETTINGS[row["settings"]], f"{row['hz']:g}", *shown, speed, worst)
+    return Group(Text(f"{document['engine']}{load}", "bold"), "", table)
+
+
+_SETTINGS = {"file": "the build's", "engine": "the engine's own"}
+
+
+def _millimetres(value: float | None) -> str:
+    return "" if value is None else f"{value:.3g}"
+
+
 def _strokes(document: Mapping[str, Any]) -> list[RenderableType]:
     """How far the machine strayed from the kinematics, and what each actuator did."""
     head = Text.assemble(

@@ -40,7 +40,7 @@ if TYPE_CHECKING:
     from yellowiron.simulation.registry import ENGINES, installed_engines
     from yellowiron.simulation.strokes.result import SimulationResult, simulation_document
     from yellowiron.simulation.strokes.run import simulate
-    from yellowiron.simulation.suite import examine, watch
+    from yellowiron.simulation.suite import at_rates, examine, watch
 
 __all__ = [
     "ENGINES",
@@ -49,6 +49,7 @@ __all__ = [
     "Figure",
     "Setup",
     "SimulationResult",
+    "at_rates",
     "drive",
     "driving_document",
     "examine",
@@ -71,6 +72,7 @@ __getattr__, __dir__ = lazy_names(
         "Figure": "machine_tests.figures",
         "Setup": "engine",
         "SimulationResult": "strokes.result",
+        "at_rates": "suite",
         "drive": "driving.wheeled",
         "driving_document": "driving.result",
         "examine": "suite",

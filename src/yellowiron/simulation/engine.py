@@ -14,6 +14,8 @@ from yellowiron.model.mechanism import Body, Joint, Mechanism
 from yellowiron.simulation.ground import Block
 
 Base = Literal["fixed", "floating"]
+Settings = Literal["file", "engine"]
+"""Whose word on step, integrator, cone and scene counts: what a build writes, or each engine's own defaults."""
 
 
 @dataclass(frozen=True, eq=False)
@@ -22,7 +24,8 @@ class Setup:
     masses of `heavier`, the bodies that differ from the file, and the drives of `driven`, the joints that do. A fixed
     base stands in the air (no ground); a floating one stands on a ground plane at z = 0, with `blocks` on it. Ground
     and blocks touch the bodies `standing` on them and no others: a bucket passes through, so that strokes stay whole.
-    `timestep` in seconds; `measured` are the joints whose coordinates are read.
+    `timestep` in seconds; `measured` are the joints whose coordinates are read. With `settings` of the `engine` the
+    machine's own file is all that is ours: the scene around it says gravity and ground, and no engine is told more.
     """
 
     usd_path: Path
@@ -34,6 +37,7 @@ class Setup:
     driven: tuple[Joint, ...] = ()
     standing: tuple[str, ...] = ()
     blocks: tuple[Block, ...] = ()
+    settings: Settings = "file"
 
 
 class Readings(NamedTuple):

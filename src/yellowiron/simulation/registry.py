@@ -17,7 +17,7 @@ from types import MappingProxyType, ModuleType
 from typing import cast
 
 from yellowiron.model.errors import YellowironError
-from yellowiron.simulation.engine import Base, Engine, Setup
+from yellowiron.simulation.engine import Base, Engine, Settings, Setup
 from yellowiron.support.plugins import find_plugins
 
 GROUP = "yellowiron.engines"
@@ -28,7 +28,8 @@ GROUP = "yellowiron.engines"
 class EngineEntry:
     """An engine there is: its `module` has `load(setup) -> Engine`. `timestep` is the default, seconds; bars are metres
     (fixed and floating base) and radians; `install` says what to install where the module's imports fail; `needs` are
-    the top-level modules of other projects that it imports."""
+    the top-level modules of other projects that it imports; `own_timestep` the step that the engine takes where nobody
+    says one (None: `timestep`)."""
 
     module: str
     timestep: float
@@ -36,6 +37,7 @@ class EngineEntry:
     angle_bar: float = 1.7453292519943296e-4
     install: str = ""
     needs: tuple[str, ...] = ()
+    own_timestep: float | None = None
 
 
 ENGINES: Mapping[str, EngineEntry] = MappingProxyType(
@@ -61,6 +63,7 @@ ENGINES: Mapping[str, EngineEntry] = MappingProxyType(
             angle_bar=math.radians(0.06),
             install="pip install 'yellowiron[physx]'",
             needs=("ovphysx", "ovstage", "newton_usd_schemas", "physx_usd_schemas", "warp"),
+            own_timestep=1.0 / 60.0,
         ),
     }
 )
@@ -82,6 +85,11 @@ def find_engine(name: str) -> EngineEntry:
             f"There is no engine '{name}'", where="--engine", hint=f"Known: {', '.join(engine_names())}."
         )
     return ENGINES[name]
+
+
+def usual_timestep(entry: EngineEntry, settings: Settings) -> float:
+    """Seconds that an engine steps where nobody says otherwise, by ours or its own settings."""
+    return entry.timestep if settings == "file" or entry.own_timestep is None else entry.own_timestep
 
 
 def import_engine(name: str) -> ModuleType:

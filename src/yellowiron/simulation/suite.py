@@ -16,16 +16,18 @@ from yellowiron.model.sweep import Snapshot, Sweep
 from yellowiron.simulation.driving.result import driving_document, driving_findings
 from yellowiron.simulation.driving.wheel import driven_wheels
 from yellowiron.simulation.driving.wheeled import drive
-from yellowiron.simulation.engine import Base
+from yellowiron.simulation.engine import Base, Settings
 from yellowiron.simulation.machine_tests.figures import figure_findings, figures_document
 from yellowiron.simulation.machine_tests.hydraulics import run_tests
 from yellowiron.simulation.payload import RatedPayload
-from yellowiron.simulation.registry import find_engine, import_engine
+from yellowiron.simulation.registry import find_engine, import_engine, usual_timestep
 from yellowiron.simulation.strokes.result import simulation_document
 from yellowiron.simulation.strokes.run import check_timestep, simulate
 from yellowiron.support.guard import Wording, beat, run_guarded
 
 PATIENCE = "YELLOWIRON_PATIENCE"
+_OF_RATE = ("completed", "pin_error_mm", "pin_error_at", "loop_gap_mm", "branches_kept", "steps_per_second")
+"""What a row of the table of rates has of a document."""
 _PATIENCE = 300.0
 """Seconds. Not for the whole run: how long that takes hangs on steps, machine and computer."""
 
@@ -40,20 +42,68 @@ def examine(
     base: Base | None = None,
     payload: RatedPayload | None = None,
     dt: float | None = None,
+    settings: Settings = "file",
     progress: Callable[[str], None] = lambda words: None,
 ) -> tuple[dict[str, Any], tuple[Sweep, ...]]:
     """What `test` names, as a document (docs: simulate), and what the strokes leave to be looked at.
 
     In a child process, so that an engine which crashes, or takes no step for `patience` seconds, is a
-    `YellowironError`. `base` and `payload` are for the strokes; driving is empty, the template's tests say their own.
-    Errors as in `simulate`, `drive` and `run_tests`; a machine that has nothing to drive on is no error but a reason.
+    `YellowironError`. `base`, `payload` and `settings` are for the strokes; driving is empty, the template's tests say
+    their own. Errors as in `simulate`, `drive` and `run_tests`; a machine that has nothing to drive on is no error but
+    a reason.
     """
     if dt is not None:
         check_timestep(dt)
+    if settings == "engine" and test != "strokes":
+        raise YellowironError(
+            "The engine's own settings are for the strokes alone",
+            where=f"--settings engine --test {test}",
+            hint="Leave one of the two out.",
+        )
     made: tuple[dict[str, Any], tuple[Sweep, ...]] = _apart(
-        "suite:examined", engine, usd_path, engine, test, base, payload, dt, progress=progress
+        "suite:examined", engine, usd_path, engine, test, base, payload, dt, settings, progress=progress
     )
     return made
+
+
+def at_rates(
+    usd_path: str | Path,
+    *,
+    engine: str,
+    rates: Sequence[float],
+    settings: Sequence[Settings] = ("file", "engine"),
+    base: Base | None = None,
+    payload: RatedPayload | None = None,
+    progress: Callable[[str], None] = lambda words: None,
+) -> dict[str, Any]:
+    """The strokes again at every rate (steps a second) with every settings, as a document: how far the pins come apart.
+
+    A run that breaks down, or whose engine crashes, is a row that says so. Errors as in `simulate`.
+    """
+    for rate in rates:
+        check_timestep(1.0 / rate if rate > 0.0 else math.inf)
+    import_engine(engine)
+    usd.read_mechanism(usd_path)  # what cannot be read is no row
+    load = payload or RatedPayload(0.0, "none")
+    rows = []
+    for setting in settings:
+        for rate in rates:
+            row: dict[str, Any] = {"settings": setting, "hz": rate, "dt_s": 1.0 / rate}
+            progress(f"{rate:g} Hz with the {setting}'s settings")
+            try:
+                found, _ = examine(
+                    usd_path, engine=engine, test="strokes", base=base, payload=load, dt=1.0 / rate, settings=setting
+                )
+            except YellowironError as error:
+                rows.append({**row, **dict.fromkeys(_OF_RATE), "completed": False, "reason": error.message})
+                continue
+            told = {key: found[key] if _is_finite(found[key]) else None for key in _OF_RATE}
+            rows.append({**row, **told, "reason": "" if found["completed"] else "the simulation broke down"})
+    return {"engine": engine, "payload_kg": load.mass, "payload_source": load.source, "rates": rows, "findings": []}
+
+
+def _is_finite(value: Any) -> bool:
+    return not isinstance(value, float) or math.isfinite(value)
 
 
 def watch(
@@ -99,20 +149,26 @@ def patience() -> float:
 
 
 def examined(
-    usd_path: str | Path, engine: str, test: Suite, base: Base | None, payload: RatedPayload | None, dt: float | None
+    usd_path: str | Path,
+    engine: str,
+    test: Suite,
+    base: Base | None,
+    payload: RatedPayload | None,
+    dt: float | None,
+    settings: Settings = "file",
 ) -> tuple[dict[str, Any], tuple[Sweep, ...]]:
     """`examine` in this process."""
     progress = beat
-    step = find_engine(engine).timestep if dt is None else dt
+    step = usual_timestep(find_engine(engine), settings) if dt is None else dt
     import_engine(engine)
     load = payload or RatedPayload(0.0, "none")
-    document: dict[str, Any] = {"engine": engine, "dt_s": step}
+    document: dict[str, Any] = {"engine": engine, "dt_s": step, "settings": settings}
     findings: list[Finding] = []
     sweeps: tuple[Sweep, ...] = ()
     if test in ("strokes", "all"):
         result = simulate(
             usd_path, engine=engine, base=base, payload_kg=load.mass, payload_source=load.source, dt=dt,
-            progress=progress,
+            settings=settings, progress=progress,
         )  # fmt: skip
         document |= simulation_document(result)
         findings += result.findings

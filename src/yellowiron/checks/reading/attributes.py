@@ -35,3 +35,9 @@ def axis_token(prim: Usd.Prim, name: str, default: str) -> str:
     """X, Y or Z, authored or else the default."""
     value = _authored(prim, name)
     return value if isinstance(value, str) and value in ("X", "Y", "Z") else default
+
+
+def token(prim: Usd.Prim, name: str) -> str:
+    """An authored token, or ""."""
+    value = _authored(prim, name)
+    return value if isinstance(value, str) else ""

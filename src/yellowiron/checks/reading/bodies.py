@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import functools
 import math
-from collections.abc import Iterable, Mapping
+from collections.abc import Callable, Iterable, Mapping
 from typing import Any
 
 import numpy as np
@@ -84,6 +84,11 @@ def _rotation_and_scale(rows: bytes) -> tuple[Floats, Floats, bool, bool]:
     return rotation, scale, sheared, mirrored
 
 
+def is_rigid(prim: Usd.Prim) -> bool:
+    """Whether a prim is a rigid body, switched off or not."""
+    return bool(prim.HasAPI(UsdPhysics.RigidBodyAPI))
+
+
 def is_body(prim: Usd.Prim) -> bool:
     """Whether a prim is a rigid body that is not switched off."""
     return (
@@ -148,6 +153,8 @@ def _read_body(
         solid=union(solid.get(path, [])),
         has_collider=path in owners,
         disc_axis=_disc_axis(prim, moments, rotation),
+        drawn=union(_boxes(prim, poses, _collides)),
+        weightless=_is_weightless(prim),
         filtered=tuple(str(t) for t in filtered.GetTargets()) if filtered else (),
         record=record_of(prim),
     )
@@ -174,18 +181,30 @@ def _given(local: Gf.Vec3d | None) -> bool:
     return local is not None and all(math.isfinite(c) for c in local)
 
 
-def _boxes(prim: Usd.Prim, poses: Poses) -> list[Floats]:
-    """The boxes of a body's own geometry, without those of bodies nested in it."""
+def _collides(prim: Usd.Prim) -> bool:
+    """Whether a prim is a collider, a part of a body of its own, or a guide."""
+    guide = prim.IsA(UsdGeom.Imageable) and UsdGeom.Imageable(prim).GetPurposeAttr().Get() == UsdGeom.Tokens.guide
+    return bool(guide or prim.HasAPI(UsdPhysics.CollisionAPI) or prim.HasAPI(UsdPhysics.RigidBodyAPI))
+
+
+def _is_weightless(prim: Usd.Prim) -> bool:
+    """Whether gravity is off on a body, as PhysX or MuJoCo say it."""
+    off = prim.GetAttribute("physxRigidBody:disableGravity")
+    return bool(off and off.Get() is True) or (number(prim, "mjc:gravcomp") or 0.0) >= 1.0
+
+
+def _boxes(prim: Usd.Prim, poses: Poses, without: Callable[[Usd.Prim], bool] = is_rigid) -> list[Floats]:
+    """The boxes of a body's own geometry, without those of prims like bodies nested in it."""
     if prim.IsA(UsdGeom.Gprim):
         box = poses.bounds(prim)
         return [] if box is None else [box]
     found: list[Floats] = []
     for child in prim.GetFilteredChildren(Usd.TraverseInstanceProxies()):
-        if child.HasAPI(UsdPhysics.RigidBodyAPI):
+        if without(child):
             continue
-        nested = any(p.HasAPI(UsdPhysics.RigidBodyAPI) for p in Usd.PrimRange(child, Usd.TraverseInstanceProxies()))
+        nested = any(without(p) for p in Usd.PrimRange(child, Usd.TraverseInstanceProxies()))
         if nested:
-            found += _boxes(child, poses)
+            found += _boxes(child, poses, without)
         elif (box := poses.bounds(child)) is not None:
             found.append(box)
     return found

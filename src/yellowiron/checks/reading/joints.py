@@ -8,9 +8,10 @@ from collections.abc import Iterable, Mapping
 import numpy as np
 from pxr import Gf, Usd, UsdPhysics
 
-from yellowiron.checks.reading.attributes import axis_token, number, quaternion, vector
+from yellowiron.checks.reading.attributes import axis_token, number, quaternion, token, vector
 from yellowiron.checks.reading.bodies import Poses, body_of, record_of, rotation_and_scale
-from yellowiron.checks.values import ANGULAR, LINEAR, Side, StageDrive, StageJoint, Units
+from yellowiron.checks.reading.spans import span
+from yellowiron.checks.values import ANGULAR, LINEAR, Side, StageDrive, StageJoint, Units, direction
 
 _TYPES = {
     "PhysicsFixedJoint": "fixed",
@@ -70,10 +71,11 @@ def _read_joint(prim: Usd.Prim, poses: Poses, units: Units, actuated: set[str]) 
     schemas = _applied(prim)
     offset = number(prim, "newton:mimicCoef0") or 0.0
     ratio = number(prim, "newton:mimicCoef1")
+    sides = (_read_side(prim, 0, poses), _read_side(prim, 1, poses))
     return StageJoint(
         path=str(prim.GetPath()),
         type=_as_simple(kind, freedoms),
-        sides=(_read_side(prim, 0, poses), _read_side(prim, 1, poses)),
+        sides=sides,
         enabled=api.GetJointEnabledAttr().Get() is not False,
         cut=bool(api.GetExcludeFromArticulationAttr().Get()),
         freedoms=freedoms,
@@ -87,9 +89,21 @@ def _read_joint(prim: Usd.Prim, poses: Poses, units: Units, actuated: set[str]) 
         actuated=str(prim.GetPath()) in actuated,
         leader=_leader(prim),
         ratio=1.0 if ratio is None else ratio,
+        spans=_spans(prim, sides, freedoms, poses),
         offset=offset * (units.meters_per_unit if freedoms[:1] and freedoms[0] in LINEAR else math.radians(1.0)),
         record=record_of(prim),
     )
+
+
+def _spans(
+    prim: Usd.Prim, sides: tuple[Side, Side], freedoms: tuple[str, ...], poses: Poses
+) -> tuple[tuple[float, float] | None, tuple[float, float] | None]:
+    """How far the two bodies of a slide reach along its axis."""
+    if len(freedoms) != 1 or freedoms[0] not in LINEAR or not all(side.body for side in sides):
+        return None, None
+    axis = direction(sides[0].rotation, freedoms[0])
+    bodies = [prim.GetStage().GetPrimAtPath(side.body) for side in sides]
+    return span(bodies[0], axis, poses), span(bodies[1], axis, poses)
 
 
 def _applied(prim: Usd.Prim) -> list[str]:
@@ -173,6 +187,8 @@ def _read_drive(prim: Usd.Prim, instance: str, units: Units) -> StageDrive:
         damping=value("damping", 0.0) * gain,
         max_force=value("maxForce", math.inf) * kilograms * (meters**2 if angular else meters),
         target_position=value("targetPosition", 0.0) * target,
+        target_velocity=value("targetVelocity", 0.0) * target,
+        acceleration=token(prim, f"drive:{instance}:physics:type") == "acceleration",
     )
 
 

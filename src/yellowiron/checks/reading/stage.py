@@ -15,6 +15,7 @@ from yellowiron.checks.reading.attributes import number
 from yellowiron.checks.reading.bodies import Poses, read_bodies, read_colliders, read_materials, record_of
 from yellowiron.checks.reading.bodies import rotation_and_scale as split
 from yellowiron.checks.reading.joints import read_joints
+from yellowiron.checks.reading.settings import groundless, lost_filters, read_solver
 from yellowiron.checks.values import Units
 from yellowiron.checks.view import View
 from yellowiron.model.geometry import Floats
@@ -62,6 +63,9 @@ def read_view(stage: Usd.Stage, name: str) -> View:
         roots=roots,
         self_collision={r: _self_collision(stage.GetPrimAtPath(r)) for r in roots},
         scenes=tuple(_scenes(prims, units)),
+        solver=tuple(read_solver(prims)),
+        lost_filters=tuple(lost_filters(prims)),
+        groundless=tuple(groundless(stage, prims, colliders)),
         not_numbers=tuple(_not_numbers(prims)),
         broken=tuple(layers.broken_references(stage)),
         missing_assets=tuple(layers.missing_assets(stage)),
@@ -94,6 +98,8 @@ def _scenes(prims: Iterable[Usd.Prim], units: Units) -> Iterator[tuple[str, floa
         if prim.IsA(UsdPhysics.Scene):
             gravity = number(prim, "physics:gravityMagnitude")
             given = gravity is not None and math.isfinite(gravity) and gravity >= 0.0
+            if prim.GetAttribute("newton:gravityEnabled").Get() is False:
+                gravity, given = 0.0, True
             yield str(prim.GetPath()), gravity * units.meters_per_unit if given and gravity is not None else None
 
 

@@ -50,4 +50,4 @@ def rules_of(topics: Iterable[ModuleType]) -> tuple[Rule, ...]:
     return tuple(value for topic in topics for value in vars(topic).values() if isinstance(value, Rule))
 
 
-RULES = rules_of(TOPICS)
+RULES = tuple(sorted(rules_of(TOPICS), key=lambda rule: rule.code))

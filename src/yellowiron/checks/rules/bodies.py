@@ -135,3 +135,18 @@ def no_physics(view: View) -> Remarks:
     """There is no physics."""
     if not view.bodies and not view.broken:
         yield view.name, "The file has no rigid body."
+
+
+@rule(
+    "CHK028",
+    "warning",
+    "Set physxRigidBody:disableGravity to false, or mjc:gravcomp to 0: what it weighs is missing on every drive below.",
+)
+def weightless(view: View) -> Remarks:
+    """Gravity is off on a body of a machine."""
+    for island in view.islands:
+        off = [b for b in island.bodies if b.weightless]
+        if off and len(off) == len(island.bodies):
+            yield island.where, "It is off on all of its bodies."
+        else:
+            yield from ((b.path, "It is off here, and on for others of the machine.") for b in off)

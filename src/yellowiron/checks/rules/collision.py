@@ -6,7 +6,7 @@ import numpy as np
 
 from yellowiron.checks.islands import Island
 from yellowiron.checks.rule import Remarks, rule
-from yellowiron.checks.values import StageBody, leaf
+from yellowiron.checks.values import StageBody, extent, leaf
 from yellowiron.checks.view import View
 
 _TOKENS = (
@@ -21,6 +21,8 @@ _TOKENS = (
 )
 """UsdPhysics' approximations, and the two that PhysX adds."""
 _OVERLAP = 1e-3
+_FAR = 0.5
+"""Of a body's size: a collider as far from all that is drawn of it is misplaced."""
 
 
 @rule(
@@ -113,3 +115,42 @@ def _overlaps(island: Island) -> list[tuple[StageBody, StageBody]]:
             if a is not None and b is not None and (np.minimum(a[1], b[1]) - np.maximum(a[0], b[0])).min() > _OVERLAP:
                 found.append((first, second))
     return found
+
+
+@rule(
+    "CHK105",
+    "warning",
+    "Take the ground's group out of its filteredGroups, or the ground's colliders out of that group.",
+)
+def groundless(view: View) -> Remarks:
+    """A collision group meets nothing that stands still."""
+    for group in view.groundless:
+        yield group, "Bodies are in it, and it is filtered from every collider that belongs to none: they fall through."
+
+
+@rule(
+    "CHK106",
+    "warning",
+    "Correct the path, or remove it: the pair that was meant collides.",
+)
+def lost_filter(view: View) -> Remarks:
+    """A filtered pair names nothing."""
+    for path, target in view.lost_filters:
+        yield path, f"Its filteredPairs name {target}, which is not there, or is deactivated."
+
+
+@rule(
+    "CHK107",
+    "warning",
+    "Put it where the body's geometry is: what is seen touches nothing, and what touches is not seen.",
+)
+def stray_collider(view: View) -> Remarks:
+    """A collider is far from its body's geometry."""
+    for collider in view.colliders:
+        body = view.bodies.get(collider.body)
+        if body is None or body.drawn is None or collider.bounds is None:
+            continue
+        gap = np.maximum(0.0, np.maximum(collider.bounds[0] - body.drawn[1], body.drawn[0] - collider.bounds[1]))
+        distance, size = float(np.linalg.norm(gap)), extent(body.drawn)
+        if distance > _FAR * size:
+            yield collider.path, f"It is {distance:.3g} m from all that is drawn of a body {size:.3g} m across."

@@ -5,13 +5,20 @@ from __future__ import annotations
 import math
 
 from yellowiron.checks.rule import Remarks, rule
-from yellowiron.checks.values import ANGULAR, LINEAR, StageJoint
+from yellowiron.checks.values import ANGULAR, LINEAR, StageJoint, extent
 from yellowiron.checks.view import View
 from yellowiron.support.text import with_article
 
 _KNOWN = ("linear", "angular", *LINEAR, *ANGULAR)
 _STIFFEST = 200.0
 """Hz, of the whole machine's mass on the drive's spring: no hydraulics comes near, and no step of a simulation."""
+
+_SHARPEST = (2.0 * math.pi * _STIFFEST) ** 2
+"""1/s²: of an acceleration drive, whose gains are those for a mass of 1, the stiffness of that frequency."""
+_FASTEST = {"linear": 20.0, "angular": 100.0}
+"""m/s of a slide, and of the rim of what a hinge turns: no cylinder and no wheel comes near."""
+_BEYOND = 10.0
+"""Times a joint's own largest velocity: a target so far above it is a mistake."""
 
 
 def _fits(joint: StageJoint, instance: str) -> bool:
@@ -88,7 +95,13 @@ def too_stiff(view: View) -> Remarks:
     for island in view.islands:
         for joint in island.joints:
             for drive in joint.drives:
-                if joint.cut or drive.instance not in _KNOWN or island.mass <= 0.0 or island.size <= 0.0:
+                if (
+                    drive.acceleration
+                    or joint.cut
+                    or drive.instance not in _KNOWN
+                    or island.mass <= 0.0
+                    or island.size <= 0.0
+                ):
                     continue
                 load = island.mass * (1.0 if drive.instance in ("linear", *LINEAR) else island.size**2)
                 if math.isinf(drive.stiffness) or drive.stiffness > load * (2.0 * math.pi * _STIFFEST) ** 2:
@@ -168,3 +181,47 @@ def no_gain(view: View) -> Remarks:
         for drive in joint.drives:
             if not drive.acts:
                 yield joint.path, f"Its {drive.instance} drive has neither stiffness nor damping."
+
+
+@rule(
+    "CHK140",
+    "warning",
+    "Set the drive's type to force, or divide its gains by the mass it moves.",
+)
+def gains_of_force(view: View) -> Remarks:
+    """An acceleration drive has the gains of a force drive."""
+    for joint in view.joints:
+        for drive in joint.drives:
+            hard = drive.stiffness > _SHARPEST or drive.damping > 2.0 * math.sqrt(_SHARPEST)
+            if drive.acceleration and hard:
+                yield (
+                    joint.path,
+                    f"Its stiffness is {drive.stiffness:.3g} 1/s² and its damping {drive.damping:.3g} 1/s, whatever it "
+                    "moves.",
+                )
+
+
+@rule(
+    "CHK141",
+    "warning",
+    "Give targetVelocity in stage units or degrees a second; 0 holds still.",
+)
+def absurd_speed(view: View) -> Remarks:
+    """A drive's target is faster than any machine."""
+    for joint in view.joints:
+        for drive in joint.drives:
+            speed = abs(drive.target_velocity)
+            if speed == 0.0 or not _fits(joint, drive.instance):
+                continue
+            linear = drive.instance in ("linear", *LINEAR)
+            reach = 1.0 if linear else _radius(view, joint)
+            own = min(joint.velocity_limits.values(), default=math.inf)
+            limit = own * (view.units.meters_per_unit if linear else math.radians(1.0))
+            if speed * reach > _FASTEST["linear" if linear else "angular"] or 0.0 < _BEYOND * limit < speed:
+                yield joint.path, f"Its target is {speed:.4g} {'m' if linear else 'rad'}/s."
+
+
+def _radius(view: View, joint: StageJoint) -> float:
+    """Half of the size of the smaller body that a hinge turns, metres; 1 where neither has one."""
+    sizes = [extent(body.bounds) for path in joint.bodies if (body := view.bodies.get(path)) is not None]
+    return 0.5 * min((size for size in sizes if size > 0.0), default=2.0)

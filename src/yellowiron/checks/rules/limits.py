@@ -7,11 +7,12 @@ from collections.abc import Iterator
 
 import numpy as np
 
-from yellowiron.checks.islands import cylinders
+from yellowiron.checks.islands import Island, cylinders
 from yellowiron.checks.rule import Remarks, rule
 from yellowiron.checks.tolerances import DEPENDENT
 from yellowiron.checks.values import WORLD, StageJoint
 from yellowiron.checks.view import View
+from yellowiron.model.geometry import Floats
 
 _ROUND = 0.02
 """Degrees within which a limit is a whole number of degrees."""
@@ -20,6 +21,11 @@ _SHARE = 0.1
 _SLACK = {"revolute": math.radians(0.1), "prismatic": 1e-3}
 _STAGES = 5.0
 """A cylinder's stroke, in its closed lengths: a telescopic one has five stages at most, and each is shorter."""
+_PLAY = 0.05
+"""Of a stroke: so much a cylinder's halves as they are drawn may fall short."""
+_OTHERWISE = 0.1
+"""Of its range: a slide's ends, where they are those it was made for, bring a hinge of its loop this near to its
+limits."""
 _RADIANS = 2.0 * math.pi
 
 
@@ -193,3 +199,94 @@ def outside(view: View) -> Remarks:
                 joint.path,
                 f"It is drawn at {_say(joint, value)}, its limits are {_say(joint, lower)} and {_say(joint, upper)}.",
             )
+
+
+@rule(
+    "CHK068",
+    "warning",
+    "Negate and exchange them: the stroke is on the other side of the drawn pose, or the slide's axis points the other "
+    "way.",
+)
+def mirrored(view: View) -> Remarks:
+    """A slide's limits are mirrored about the drawn pose."""
+    for island in view.islands:
+        for cylinder in cylinders(island):
+            slide, before, after = cylinder
+            if slide.lower is None or slide.upper is None or slide.lower >= slide.upper:
+                continue
+            ends = (slide.lower - slide.coordinate, slide.upper - slide.coordinate)
+            other = (-ends[1], -ends[0])
+            told = [_say(slide, slide.coordinate + end) for end in (*ends, *other)]
+            if not _holds_together(slide, before, after, ends) and _holds_together(slide, before, after, other):
+                yield (
+                    slide.path,
+                    f"From {told[0]} to {told[1]} its rod leaves the barrel or goes through its end; from {told[2]} to "
+                    f"{told[3]} it would not.",
+                )
+            elif (
+                _off(island, (slide, before, after), ends)
+                > _OTHERWISE
+                > 4.0 * _off(island, (slide, before, after), other)
+            ):
+                yield (
+                    slide.path,
+                    f"From {told[0]} to {told[1]} the pivots of its loop would pass their own limits; those are right "
+                    f"for {told[2]} to {told[3]}.",
+                )
+
+
+def _off(island: Island, cylinder: tuple[StageJoint, StageJoint, StageJoint], ends: tuple[float, float]) -> float:
+    """How far the ends of a cylinder's slide (m from the drawn pose) are from bringing the hinges of its triangle of
+    pivots to their limits, in shares of those limits' ranges: the nearest counts. 0 where there is no such hinge."""
+    slide, before, after = cylinder
+    known = {before.path, slide.path, after.path}
+    loops = [{j.path: j for j in loop.joints if j.type != "fixed"} for loop in island.loops]
+    third = [
+        j for loop in loops if len(loop) == 4 and known <= loop.keys() for j in loop.values() if j.path not in known
+    ]
+    if len(third) != 1 or before.type != "revolute" or third[0].type not in ("revolute", "spherical"):
+        return 0.0
+    pivot, normal = third[0], before.axis
+    corners = [j.sides[0].position - (j.sides[0].position @ normal) * normal for j in (pivot, before, after)]
+    frame, lever = (next((b for b in j.bodies if b not in slide.bodies), WORLD) for j in (before, after))
+    out = float(np.sign((corners[2] - corners[1]) @ slide.axis)) * (1.0 if slide.bodies[0] in before.bodies else -1.0)
+    found = []
+    for index, (joint, fixed) in enumerate(((pivot, frame), (before, frame), (after, lever))):
+        if joint.type != "revolute" or joint.lower is None or joint.upper is None or joint.upper <= joint.lower:
+            continue
+        one, other = ((1, 2), (0, 2), (0, 1))[index]
+        turn = np.cross(corners[one] - corners[index], corners[other] - corners[index]) @ joint.axis
+        sense = np.sign(turn) * (1.0 if joint.bodies[0] == fixed else -1.0)
+        angles = [_interior(corners, index, out * end) for end in (0.0, *ends)]
+        if np.isfinite(angles).all():
+            reached = sorted(joint.coordinate + float(sense * (angle - angles[0])) for angle in angles[1:])
+            apart = abs(reached[0] - joint.lower) + abs(reached[1] - joint.upper)
+            found.append(apart / (joint.upper - joint.lower))
+        else:
+            found.append(math.inf)
+    return min(found, default=0.0)
+
+
+def _interior(corners: list[Floats], index: int, longer: float) -> float:
+    """The angle at a corner of the triangle (pivot, cylinder's two pins) with the cylinder so much longer; NaN past a
+    dead point."""
+    sides = [float(np.linalg.norm(corners[(k + 1) % 3] - corners[(k + 2) % 3])) for k in range(3)]
+    sides[0] += longer
+    a, b, c = sides[index], sides[(index + 1) % 3], sides[(index + 2) % 3]
+    cosine = (b * b + c * c - a * a) / (2.0 * b * c) if b * c > 0.0 else math.nan
+    return math.acos(cosine) if abs(cosine) <= 1.0 else math.nan
+
+
+def _holds_together(slide: StageJoint, before: StageJoint, after: StageJoint, ends: tuple[float, float]) -> bool:
+    """Whether a cylinder's halves stay in each other between `ends` (m from the drawn pose), and neither passes the
+    other's eye; true where a half has no geometry."""
+    one, other = slide.spans
+    if one is None or other is None:
+        return True
+    # Along the line from the first half's pin to the second's, which the second half goes to extend it.
+    near, far = (before, after) if slide.bodies[0] in before.bodies else (after, before)
+    if (far.sides[0].position - near.sides[0].position) @ slide.axis < 0.0:
+        one, other, ends = (-one[1], -one[0]), (-other[1], -other[0]), (-ends[1], -ends[0])
+    slack = _PLAY * (ends[1] - ends[0])
+    inside = one[1] - (other[0] + ends[1]) >= -slack
+    return inside and other[0] + ends[0] >= one[0] - slack and other[1] + ends[0] >= one[1] - slack

@@ -155,3 +155,17 @@ def center_outside(view: View) -> Remarks:
         distance = float(np.linalg.norm(body.center_of_mass - nearest))
         if distance > 0.5 * extent(body.bounds):
             yield body.path, f"It is {distance:.3g} m outside a body that is {extent(body.bounds):.3g} m across."
+
+
+@rule(
+    "CHK038",
+    "warning",
+    "Give its mass: engines take 0 for one that is not given, and weigh its colliders instead.",
+)
+def zero(view: View) -> Remarks:
+    """A mass is written as 0."""
+    dense = {c.body for c in view.colliders if c.density}
+    for island in view.islands:
+        for body in island.bodies:
+            if body.mass == 0.0 and not body.density and body.path in dense and not body.kinematic:
+                yield body.path, "Its mass is 0, so it weighs what its colliders do at their materials' density."

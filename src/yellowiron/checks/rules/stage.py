@@ -12,6 +12,14 @@ _SIZES = (0.01, 500.0)
 """Machines are between a centimetre and half a kilometre."""
 _GRAVITY = (1.0, 30.0)
 """m/s²: from less than the Moon's to more than Jupiter's; 0 is meant."""
+_AT_LEAST = "physxScene:minPositionIterationCount"
+"""0 is what PhysX has where nobody gives it."""
+_MOST = "physxScene:maxPositionIterationCount"
+_SECONDS = "mjc:option:timestep"
+_RATES = {"physxScene:timeStepsPerSecond": 60.0, "newton:timeStepsPerSecond": 240.0, _SECONDS: 240.0}
+"""Attribute → steps a second with which pins stay within a millimetre."""
+_ENOUGH, _FILE, _USUAL = 32.0, 255.0, 60.0
+"""Iterations that hold loops, those that a build writes, and steps a second that PhysX takes where nobody says."""
 
 
 @rule(
@@ -122,3 +130,82 @@ def no_kilograms_per_unit(view: View) -> Remarks:
     """The stage does not say how heavy its unit is."""
     if view.bodies and view.units.kilograms is None:
         yield view.name, "kilogramsPerUnit is not written, so masses are read in kilograms."
+
+
+@rule(
+    "CHK130",
+    "warning",
+    "Leave gravityMagnitude out for the Earth's, or set it; drives that never carried a weight prove nothing.",
+)
+def no_gravity(view: View) -> Remarks:
+    """There is no gravity."""
+    for path, gravity in view.scenes:
+        if gravity == 0.0 and view.bodies:
+            yield path, "Gravity is 0 or off, so nothing here weighs anything."
+
+
+@rule(
+    "CHK131",
+    "error",
+    "Leave it out, or give 1 or more: with none no joint, contact or drive is solved.",
+)
+def no_iterations(view: View) -> Remarks:
+    """A solver has no iterations."""
+    for path, name, value in view.solver:
+        if value == 0.0 and name not in (_AT_LEAST, *_RATES):
+            yield path, f"{name} is 0."
+
+
+@rule(
+    "CHK132",
+    "warning",
+    "Leave the count to the machine's file, or give 32 or more; physxScene:minPositionIterationCount of the scene "
+    "overrules whoever sets fewer.",
+)
+def few_iterations(view: View) -> Remarks:
+    """Loops have too few solver iterations."""
+    floor = max((value for _, name, value in view.solver if name == _AT_LEAST), default=0.0)
+    looped = [i for i in view.islands if i.roots and any(j.cut for j in i.joints)]
+    for path, name, value in view.solver:
+        own = name == _MOST or any(path in i.roots for i in looped)
+        counts = name in (_MOST, "physxArticulation:solverPositionIterationCount")
+        if looped and own and counts and 0.0 < max(value, floor) < _ENOUGH:
+            low, high = physx_gap(_USUAL, max(value, floor))
+            yield (
+                path,
+                f"{name} is {value:g}, and cut joints close loops here: expect pins {low:.2g} to {high:.2g} mm apart "
+                f"at {_USUAL:g} Hz.",
+            )
+
+
+@rule(
+    "CHK133",
+    "warning",
+    "Take shorter steps, or substeps: 60 Hz in PhysX, 240 Hz in Newton and MuJoCo hold pins within a millimetre.",
+)
+def long_steps(view: View) -> Remarks:
+    """A scene's steps are too long for loops."""
+    looped = [i for i in view.islands if i.roots and any(j.cut for j in i.joints)]
+    for path, name, value in view.solver if looped else ():
+        rate = 1.0 / value if name == _SECONDS and value > 0.0 else value
+        if name not in _RATES or not 0.0 < rate < _RATES[name]:
+            continue
+        low, high = physx_gap(rate, _FILE) if name.startswith("physx") else newton_gap(rate)
+        yield (
+            path,
+            f"Steps of {1e3 / rate:.3g} ms, and cut joints close loops here: expect pins {low:.2g} to {high:.2g} mm "
+            "apart.",
+        )
+
+
+def physx_gap(hz: float, iterations: float) -> tuple[float, float]:
+    """How far (mm) pins of a loader and of excavators came apart in slow full strokes in PhysX, as
+    `benchmarks/bench_defaults.py` measures it, carried on to other rates and counts by the slopes found there."""
+    fewer, longer = (4.0 / iterations) ** 1.5, (60.0 / hz) ** 2
+    return 7.0 * fewer * longer, 51.0 * fewer * longer
+
+
+def newton_gap(hz: float) -> tuple[float, float]:
+    """The same in Newton with its own integrator."""
+    longer = (60.0 / hz) ** 2
+    return 17.0 * longer, 80.0 * longer

@@ -11,7 +11,7 @@ from typing import Any
 import mujoco
 import numpy as np
 
-from yellowiron.exporters import BodyGeometry, Geometry, actuator_names, export_mjcf, read_geometry
+from yellowiron.exporters import TIMESTEP, BodyGeometry, Geometry, actuator_names, export_mjcf, read_geometry
 from yellowiron.model.geometry import Floats
 from yellowiron.simulation.engine import Readings, Setup
 from yellowiron.simulation.ground import GROUND_FRICTION
@@ -26,7 +26,9 @@ def load(setup: Setup) -> MujocoEngine:
     with tempfile.TemporaryDirectory(prefix="yellowiron-") as folder:
         # Sensors would be computed at every step, and nobody reads them here.
         bare = replace(setup.mechanism, sensors=())
-        file = export_mjcf(bare, touched, Path(folder), base=setup.base, timestep=setup.timestep)
+        # With the engine's settings the file is the one that a user exports, and nothing but its step is changed.
+        written = setup.timestep if setup.settings == "file" else TIMESTEP
+        file = export_mjcf(bare, touched, Path(folder), base=setup.base, timestep=written)
         spec = mujoco.MjSpec.from_file(str(file if setup.base == "fixed" else file.with_name("scene.xml")))
         for number, block in enumerate(setup.blocks):
             name = f"block.{number}"
@@ -34,6 +36,7 @@ def load(setup: Setup) -> MujocoEngine:
             spec.worldbody.add_geom(
                 name=name, type=mujoco.mjtGeom.mjGEOM_MESH, meshname=name, friction=(GROUND_FRICTION, 0.005, 0.0001)
             )
+        spec.option.timestep = setup.timestep
         model = spec.compile()
     # On a state that is not finite MuJoCo starts again from the drawn pose, as if nothing had happened.
     model.opt.disableflags |= int(mujoco.mjtDisableBit.mjDSBL_AUTORESET)

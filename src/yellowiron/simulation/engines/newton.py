@@ -67,12 +67,12 @@ class NewtonEngine:
             newton.solvers.SolverMuJoCo.register_custom_attributes(builder)
             found = builder.add_usd(_without_fields(Usd.Stage.Open(world.layer)), load_visual_shapes=False)
             self._model: Any = builder.finalize(device="cpu")
+            told = {"integrator": integrator_of(setup.mechanism).lower(), "cone": "elliptic"}
             self._solver: Any = newton.solvers.SolverMuJoCo(
                 self._model,
                 use_mujoco_cpu=True,
-                integrator=integrator_of(setup.mechanism).lower(),
-                cone="elliptic",
                 update_data_interval=0,  # what MuJoCo has come to is its own, unrounded: it is not told back every step
+                **(told if setup.settings == "file" else {}),
             )
             self._states = [self._model.state(), self._model.state()]
             self._control: Any = self._model.control()

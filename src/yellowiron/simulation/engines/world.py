@@ -113,13 +113,14 @@ def _names(stage: Usd.Stage) -> Iterator[tuple[tuple[str, str], str]]:
 
 def _write_scene(layer: Sdf.Layer, setup: Setup) -> None:
     scene = define(layer, "/World/physics", "PhysicsScene")
-    apply_schemas(scene, "PhysxSceneAPI", "NewtonSceneAPI")
     set_attribute(scene, "physics:gravityDirection", Types.Vector3f, Gf.Vec3f(0.0, 0.0, -1.0))
     set_attribute(scene, "physics:gravityMagnitude", Types.Float, GRAVITY)
-    set_attribute(scene, "physxScene:solverType", Types.Token, "TGS", uniform=True)
+    apply_schemas(scene, "PhysxSceneAPI", "NewtonSceneAPI")
     set_attribute(scene, "physxScene:timeStepsPerSecond", Types.UInt, max(1, round(1.0 / setup.timestep)))
-    if loops_last(setup.mechanism):
-        set_attribute(scene, LOOPS_LAST, Types.Bool, True)
+    if setup.settings == "file":
+        set_attribute(scene, "physxScene:solverType", Types.Token, "TGS", uniform=True)
+        if loops_last(setup.mechanism):
+            set_attribute(scene, LOOPS_LAST, Types.Bool, True)
     if setup.base == "fixed":
         return
     soil = define(layer, _SOIL, "Material")

@@ -19,11 +19,11 @@ from yellowiron.model.sweep import Sweep
 from yellowiron.simulation.commands import Motion, Phase, motions, phases
 from yellowiron.simulation.driving.rolling import rolling
 from yellowiron.simulation.driving.wheel import GroundWheel, driven_wheels
-from yellowiron.simulation.engine import Base, Engine, Readings, Setup
+from yellowiron.simulation.engine import Base, Engine, Readings, Settings, Setup
 from yellowiron.simulation.ground import standing_bodies, usual_base
 from yellowiron.simulation.loads import carried, paces
 from yellowiron.simulation.payload import with_payload
-from yellowiron.simulation.registry import find_engine, import_engine, load_engine
+from yellowiron.simulation.registry import find_engine, import_engine, load_engine, usual_timestep
 from yellowiron.simulation.strokes.comparison import Agreement, Comparison, Worst
 from yellowiron.simulation.strokes.held import held_machine
 from yellowiron.simulation.strokes.recording import record
@@ -57,6 +57,7 @@ def simulate(
     payload_kg: float = 0.0,
     payload_source: str = "",
     dt: float | None = None,
+    settings: Settings = "file",
     actuators: Sequence[str] | None = None,
     progress: Callable[[str], None] = lambda words: None,
 ) -> SimulationResult:
@@ -64,14 +65,14 @@ def simulate(
     step against the closed-chain kinematics at the strokes the engine measures.
 
     `base`: `fixed` (in the air) or `floating` (on the ground, on its wheels or tracks), by default `usual_base`; `dt`
-    in seconds (default: the engine's); `actuators`: only these. Findings SIM001 … SIM005 say what fell short of the
-    engine's bars.
+    in seconds (default: the engine's); `settings`: what a build writes, or each engine's own defaults; `actuators`:
+    only these. Findings SIM001 … SIM005 say what fell short of the engine's bars.
     Raises `YellowironError` for an unknown engine or actuator, an engine that is not installed, and an unusable file.
     """
     entry = find_engine(engine)
     if base not in (None, "fixed", "floating"):
         raise YellowironError(f"There is no base '{base}'", where="--base", hint="A base is fixed or floating.")
-    step = entry.timestep if dt is None else dt
+    step = usual_timestep(entry, settings) if dt is None else dt
     check_timestep(step)
     base = base or usual_base(read_mechanism(usd_path))
     if not 0.0 <= payload_kg < math.inf:
@@ -97,6 +98,7 @@ def simulate(
         measured=comparison.measured,
         heavier=heavier,
         standing=standing_bodies(mechanism),
+        settings=settings,
     )
     loaded = load_engine(engine, setup)
     run = _Run(loaded, comparison, moves, step, _wheels(mechanism) if base == "floating" else ())

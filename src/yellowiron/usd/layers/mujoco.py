@@ -12,7 +12,7 @@ from collections.abc import Container
 
 from pxr import Sdf, Vt
 
-from yellowiron.model.mechanism import Body, Joint
+from yellowiron.model.mechanism import Body, Joint, Mechanism
 from yellowiron.model.template import Follows, by_first_leader
 from yellowiron.usd.authoring.stage import Types, apply_schemas, over, set_attribute, set_targets
 from yellowiron.usd.layers.articulation import articulation_roots
@@ -25,6 +25,13 @@ SOLREF = (0.002, 1.0)
 """Time constant (s) and damping ratio of a cut: twice a step of 1 ms, the stiffest that stays stable."""
 SOLIMP = (0.9999, 0.9999, 0.001, 0.5, 2.0)
 """As hard as MuJoCo takes it from the first micrometre on: with 0.999 there, pins err by half as much again."""
+
+DAMPED = 1e-3
+"""Seconds: a position drive of a machine with loops has an inertia of its own of so many times its damping, in Newton.
+Its default integrator, `implicitfast`, adds damping times step to what a drive moves after the loops' forces were found
+without it, and a cylinder alone weighs little: an excavator's pins err at 240 Hz by 1.9 mm without, by 0.16 with it."""
+SPUN_UP = 0.05
+"""… and no more than its force brings to its speed in so many seconds."""
 
 RULING = ("min", "multiply")
 """Ways to combine friction that MuJoCo does not know: its colliders of such a material rule by priority."""
@@ -63,14 +70,24 @@ def write_mujoco(layer: Sdf.Layer, base: Sdf.Layer, plan: Plan) -> None:
 
 def _write_newton_joint(layer: Sdf.Layer, joint: Joint, plan: Plan) -> None:
     """Rated speed, metres or degrees a second, and armature, kg or kg·m² (per radian, whatever the other units)."""
-    values = {"velocityLimit": speed_limit(joint)}
-    if joint.drive is not None and joint.drive.armature > 0.0:
-        values["armature"] = joint.drive.armature
+    values = {"velocityLimit": speed_limit(joint), "armature": armature(joint, plan.mechanism)}
     for name, value in values.items():
-        if math.isfinite(value):
+        if 0.0 < value < math.inf:
             spec = over(layer, plan.joint_paths[joint.name])
             apply_schemas(spec, "NewtonJointAPI")
             set_attribute(spec, f"newton:{name}", Types.Float, value)
+
+
+def armature(joint: Joint, mechanism: Mechanism) -> float:
+    """The inertia of a joint's drive that Newton's own integrator wants, kg or kg·m²: the drive's, or more where loops
+    are to hold. 0 for none."""
+    drive = joint.drive
+    if drive is None:
+        return 0.0
+    looped = any(other.cut or other.follows is not None for other in mechanism.joints)
+    if not looped or joint.cut or drive.kind != "position" or not 0.0 < drive.slowest < math.inf:
+        return drive.armature
+    return max(drive.armature, min(DAMPED * drive.damping, SPUN_UP * drive.strongest / drive.slowest))
 
 
 def _write_equality(joint: Sdf.PrimSpec, equality: str) -> None:
