@@ -22,6 +22,8 @@ from yellowiron.usd.planning.pin_links import PinLink, plan_pin_links
 GEOMETRY_FILE = "geometry.usdc"
 PROTOTYPES, HULLS = "/Prototypes", "/Hulls"
 VISUALS, COLLIDERS, HULL = "visuals", "colliders", "hull"
+HULL_SCALE = "yellowiron:scale"
+"""Of a body's hull, in a variant: factors along the machine's axes that its points are taken times."""
 MESH, PIECE = "mesh", "piece_"
 """Under a collider of several pieces: the part's own mesh, which does not collide, and the pieces, numbered from 1."""
 JOINTS, MATERIALS, BASE_JOINT = "joints", "materials", "base_joint"
