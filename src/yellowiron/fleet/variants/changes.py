@@ -10,7 +10,7 @@ from typing import Any
 import numpy as np
 
 from yellowiron.fleet.documents import UnusableError
-from yellowiron.fleet.variants.parameters import Parameter
+from yellowiron.fleet.variants.parameters import DIRECTION, Parameter
 from yellowiron.fleet.variants.sampling import Draw
 from yellowiron.model.geometry import Floats
 from yellowiron.model.mechanism import Actuator, Body, Cylinder, Drive, Joint, Mechanism, Vector
@@ -23,8 +23,8 @@ _NOISES = ("noise", "acceleration_noise", "rotation_noise")
 
 @dataclass(eq=False)
 class Changed:
-    """A machine with a sample's values. `radii`: wheel → factor of its radius; `play`: cut → metres; `gains`: driven
-    joint → factors of stiffness and damping; `tools`: body → the name of its tool."""
+    """A machine with a sample's values. `radii`: wheel → factor of its radius; `play`: pin → metres; `gains`: driven
+    joint → factors of stiffness and damping; `flows` and `pressures`: actuator → factor; `tools`: body → its tool."""
 
     mechanism: Mechanism
     bodies: dict[str, Body]
@@ -169,6 +169,17 @@ def _play(work: Changed, parameter: Parameter, name: str, value: float) -> None:
     work.play[name] = max(0.0, value)
 
 
+def _rest(work: Changed, parameter: Parameter, name: str, value: float) -> None:
+    """Puts a pivot off its place by half its play: a pin with play rests on one side of its bore, and no engine knows
+    play. On both bodies, so that loops stay closed as drawn."""
+    normal = np.asarray(work.joints[name].axis)
+    across = np.eye(3)[int(np.argmin(np.abs(normal)))]
+    first = np.cross(normal, across)
+    first /= np.linalg.norm(first)
+    way = math.cos(value) * first + math.sin(value) * np.cross(normal, first)
+    _move_pin(work, name, 0.5 * work.play.get(name, 0.0) * way)
+
+
 def _pin(work: Changed, parameter: Parameter, name: str, value: float) -> None:
     _move_pin(work, name, np.eye(3)[parameter.axis] * value)
 
@@ -264,7 +275,7 @@ def _tool(work: Changed, parameter: Parameter, name: str, chosen: int, tools: Ma
 _CHANGES: Mapping[str, Any] = {
     "mass": _mass, "center_of_mass": _center, "friction": _friction, "stiffness": _gain, "damping": _gain,
     "pressure": _pressure, "flow": _flow, "bore": _bore, "rod_diameter": _rod, "stroke": _stroke,
-    "closed_length": _closed, "pin_play": _play, "pin": _pin, "length": _length, "payload": _payload,
+    "closed_length": _closed, "pin_play": _play, DIRECTION: _rest, "pin": _pin, "length": _length, "payload": _payload,
     "tyre_radius": _radius, "sensor_position": _mount, "sensor_angle": _mount, "sensor_noise": _noise,
 }  # fmt: skip
 

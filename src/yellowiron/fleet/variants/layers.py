@@ -38,7 +38,6 @@ class Layers:
         from yellowiron.usd.layers.variant import variant_layer
 
         layer = variant_layer(
-            self._base, variant, self._prims, sublayer=f"../base/{self._file.name}", record=record, radii=work.radii,
-            play=work.play,
-        )  # fmt: skip
+            self._base, variant, self._prims, sublayer=f"../base/{self._file.name}", record=record, radii=work.radii
+        )
         save_layer(layer, stem.with_suffix(SUFFIX))

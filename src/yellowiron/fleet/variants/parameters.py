@@ -13,7 +13,7 @@ from yellowiron.fleet.documents import Key, UnusableError, checked, read_documen
 from yellowiron.support.units import SI_UNIT, parse_quantity
 
 Mode = Literal["factor", "offset", "value"]
-Target = Literal["bodies", "materials", "actuators", "cylinders", "cuts", "joints", "wheels", "sensors", "machine"]
+Target = Literal["bodies", "materials", "actuators", "cylinders", "pins", "joints", "wheels", "sensors", "machine"]
 MODES: tuple[Mode, ...] = ("factor", "offset", "value")
 
 
@@ -28,6 +28,9 @@ class Quantity:
     needs: tuple[str, ...] = ()
 
 
+DIRECTION = "pin_play_direction"
+"""Drawn with each pin's play: where in its bore the pin rests. No file says it."""
+
 QUANTITIES: Mapping[str, Quantity] = MappingProxyType(
     {
         "mass": Quantity("bodies", "mass", ("factor", "offset", "value")),
@@ -41,7 +44,8 @@ QUANTITIES: Mapping[str, Quantity] = MappingProxyType(
         "rod_diameter": Quantity("cylinders", "length", ("factor", "offset")),
         "stroke": Quantity("cylinders", "length", ("factor", "offset")),
         "closed_length": Quantity("cylinders", "length", ("offset",)),
-        "pin_play": Quantity("cuts", "length", ("value",)),
+        "pin_play": Quantity("pins", "length", ("value",)),
+        DIRECTION: Quantity("pins", "angle", ("value",)),
         "pin": Quantity("joints", "length", ("offset",), ("axis",)),
         "length": Quantity("bodies", "length", ("factor", "offset"), ("from", "to")),
         "payload": Quantity("machine", "mass", ("value",)),
@@ -55,7 +59,7 @@ QUANTITIES: Mapping[str, Quantity] = MappingProxyType(
 """What `vary` says → what that is."""
 
 _KEYS: Mapping[str, Key] = {
-    "vary": Key("text", tuple(QUANTITIES)),
+    "vary": Key("text", tuple(name for name in QUANTITIES if name != DIRECTION)),
     "of": Key("texts"),
     "each": Key("flag"),
     "axis": Key("text", ("x", "y", "z")),
@@ -141,8 +145,10 @@ def _parameter(name: str, entry: Any, where: str) -> Parameter:
             "A tool is chosen by name, and nothing else is", where=f"{where}.{mode}",
             hint=f"value: {{choice: [drawn, {', '.join(tools) or '…'}]}}",
         )  # fmt: skip
+    # Every pin rests on a side of its own.
+    each = said.get("each", said["vary"] == "pin_play")
     return Parameter(
-        name, said["vary"], said.get("of", ("*",)), said.get("each", False), mode, spread,
+        name, said["vary"], said.get("of", ("*",)), each, mode, spread,
         axis="xyz".index(said.get("axis", "x")), ends=(said.get("from", ""), said.get("to", "")), tools=tools,
         where=where,
     )  # fmt: skip

@@ -2,16 +2,17 @@
 
 from __future__ import annotations
 
+import math
 import zlib
 from collections.abc import Sequence
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from fnmatch import fnmatchcase
 
 import numpy as np
 from scipy.special import ndtr, ndtri
 
 from yellowiron.fleet.documents import UnusableError
-from yellowiron.fleet.variants.parameters import Parameter, Spread, Target
+from yellowiron.fleet.variants.parameters import DIRECTION, Parameter, Spread, Target
 from yellowiron.model.geometry import Floats
 from yellowiron.model.mechanism import Mechanism
 
@@ -40,6 +41,9 @@ def draws_of(parameters: Sequence[Parameter], mechanism: Mechanism) -> tuple[Dra
             found += [Draw(parameter, (name,), f"{parameter.name}.{name}") for name in names]
         else:
             found.append(Draw(parameter, names, parameter.name))
+        if parameter.vary == "pin_play":
+            way = replace(parameter, vary=DIRECTION, spread=Spread("uniform", (0.0, 2.0 * math.pi)))
+            found += [Draw(way, (name,), f"{parameter.name}.{name}.direction") for name in names]
     return tuple(found)
 
 
@@ -55,8 +59,9 @@ def names_of(target: Target, mechanism: Mechanism) -> tuple[str, ...]:
         slewing = {j.body0 for j in mechanism.joints if not j.cut}
         free = {j.body1 for j in mechanism.joints if j.name not in looped}
         return tuple(body.name for body in mechanism.bodies if body.name in (driven & free) - slewing)
-    if target == "cuts":
-        return tuple(joint.name for joint in mechanism.joints if joint.cut)
+    if target == "pins":
+        looped = {name for loop in mechanism.loops for name in loop.joints}
+        return tuple(j.name for j in mechanism.joints if j.type == "revolute" and j.name in looped)
     if target == "sensors":
         return tuple(sensor.name for sensor in mechanism.sensors)
     values = {"bodies": mechanism.bodies, "actuators": mechanism.actuators, "cylinders": mechanism.cylinders,

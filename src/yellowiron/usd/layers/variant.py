@@ -25,7 +25,6 @@ from yellowiron.usd.authoring.rotation import principal_axes
 from yellowiron.usd.authoring.stage import Types, create_layer, declare_variants, over, set_attribute, set_placement
 from yellowiron.usd.layers.drives import INSTANCES, per_usd_unit, speed_limit, to_usd_unit
 from yellowiron.usd.layers.joints import usd_type
-from yellowiron.usd.layers.mujoco import SOLIMP
 from yellowiron.usd.layers.sensors import sensor_quaternion
 from yellowiron.usd.planning.pin_links import KIND as PIN_LINK
 from yellowiron.usd.planning.plan import COLLIDERS, HULL, HULL_SCALE, MATERIALS, VISUALS
@@ -35,8 +34,6 @@ _TYRE = 0.98
 """A part of a wheel that reaches out to this share of its radius is its tyre."""
 _ROUND_OFF = 1e-9
 _SOURCE = "a variant's"
-_LOOSE = 0.05
-"""How hard a cut pin with play holds while it is within its play."""
 
 
 @dataclass(frozen=True)
@@ -133,11 +130,10 @@ def variant_layer(
     sublayer: str,
     record: Mapping[str, Any],
     radii: Mapping[str, float],
-    play: Mapping[str, float],
 ) -> Sdf.Layer:
     """A layer, in memory, that makes a variant of a base machine's file, which `sublayer` names from where the layer
-    will be. `record` stays on the machine's prim, as `variant`; `radii`: wheel → factor of its radius; `play`: cut pin
-    → metres. Binary: of a loader in which all varies it has 10 kB, as text 24."""
+    will be. `record` stays on the machine's prim, as `variant`; `radii`: wheel → factor of its radius. Binary: of a
+    loader in which all varies it has 15 kB, as text 40."""
     layer = create_layer(prims.root[1:], binary=True)
     with Sdf.ChangeBlock():
         layer.subLayerPaths.append(sublayer)
@@ -166,9 +162,6 @@ def variant_layer(
             _write_wheel(layer, name, factor, variant, prims)
         if radii:
             _raise(layer, base, prims, radii)
-        for name, width in play.items():
-            spec = over(layer, _on(prims, prims.joints[name]))
-            set_attribute(spec, "mjc:solimp", Types.DoubleArray, Vt.DoubleArray(loose_solimp(width)), uniform=True)
     return layer
 
 
@@ -180,11 +173,6 @@ def _on(prims: MachinePrims, path: str) -> str:
 def _bare(value: Any) -> Any:
     """Cylinders without where their numbers come from, which the base says; anything else as it is."""
     return tuple(replace(each, sources={}) for each in value) if isinstance(value, tuple) else value
-
-
-def loose_solimp(width: float) -> tuple[float, ...]:
-    """What MuJoCo and Newton are told of a cut pin with so much play, metres: it holds softly within it, hard beyond."""
-    return (_LOOSE, SOLIMP[1], max(width, 1e-6), *SOLIMP[3:])
 
 
 def _write_body(layer: Sdf.Layer, prims: MachinePrims, old: Body, new: Body) -> None:
