@@ -14,7 +14,7 @@ from pathlib import Path
 from typing import Any
 
 from yellowiron.fleet.places import MARK, Store
-from yellowiron.fleet.values import Item, Outcome
+from yellowiron.fleet.values import BUILT, Item, Outcome
 from yellowiron.model.errors import OutputError
 from yellowiron.support import guard, isolated, limits
 from yellowiron.support.text import to_json
@@ -123,20 +123,33 @@ class Child:
         shutil.rmtree(self.place, ignore_errors=True)
 
 
-def keep(child: Child, outcome: Outcome, store: Store) -> Outcome:
-    """Puts the result of an item that has ended into its place, and takes the rest away. What was not built leaves its
-    reason alone. Where the place cannot be written, the outcome says that."""
+def finished(child: Child, outcome: Outcome) -> Path:
+    """The folder of an item that has ended, whole: what was not built leaves its reason alone. `OSError`."""
     new = child.place / "new"
+    if outcome.status not in BUILT:
+        shutil.rmtree(new, ignore_errors=True)
+        new.mkdir()
+    (new / SECONDS).write_text(to_json({"seconds": outcome.seconds, "peak_mb": outcome.peak_mb}), encoding="utf-8")
+    (new / MARK).write_text(to_json(mark_of(child.item, child.key, outcome)), encoding="utf-8")
+    return new
+
+
+def installed(folder: Path, item: Item, outcome: Outcome, store: Store) -> Outcome:
+    """Puts an item's folder into its place. Where that cannot be written, the outcome says so."""
     try:
-        if outcome.status not in ("ready", "short"):
-            shutil.rmtree(new, ignore_errors=True)
-            new.mkdir()
-        (new / SECONDS).write_text(to_json({"seconds": outcome.seconds, "peak_mb": outcome.peak_mb}), encoding="utf-8")
-        (new / MARK).write_text(to_json(mark_of(child.item, child.key, outcome)), encoding="utf-8")
-        store.install(new, folder_of(child.item))
-    except (OSError, OutputError) as error:
-        message = error.message if isinstance(error, OutputError) else f"The disk does not take it: {error.strerror}"
-        outcome = replace(outcome, status="disk", message=message, where=child.item.id, figures={})
+        store.install(folder, folder_of(item))
+    except OutputError as error:
+        return replace(outcome, status="disk", message=error.message, where=item.id, hint=error.hint, figures={})
+    return outcome
+
+
+def keep(child: Child, outcome: Outcome, store: Store) -> Outcome:
+    """Puts the result of an item that has ended into its place, and takes the rest away."""
+    try:
+        outcome = installed(finished(child, outcome), child.item, outcome, store)
+    except OSError as error:
+        said = f"The disk does not take it: {error.strerror}"
+        outcome = replace(outcome, status="disk", message=said, where=child.item.id, hint="Make room.", figures={})
     child.clear()
     return outcome
 
