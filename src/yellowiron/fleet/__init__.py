@@ -1,13 +1,13 @@
 """Many machines: a manifest of them built, and variants of one that was built.
 
 `batch` takes a manifest (YAML, TOML, JSON, CSV) and builds what it names, an item a child process, here or on a Ray
-cluster; out come a folder an item, whole or absent, a table and a page. `vary` takes a machine and a file of parameters;
-out come small USD layers, or MJCF deltas, and a table of what was sampled.
+cluster; out come a folder an item, whole or absent, a table and a page. `vary` takes a machine and a file of
+parameters; out come small USD layers, or MJCF deltas, and a table of what was sampled.
 
 In the order in which they build on each other: `values` (items, plans, outcomes), `places` (folders and addresses),
-`documents` (files that a person writes), `manifest` (→ a plan), `keys` (what a result depends on), `figures` (a machine's
-row), `child` (what runs in an item's process), `attending` (that process, watched over), `pool` and `on_ray` (who
-runs them), `results` and `gallery` (table and page), `batch` (the whole way); `variants` is a room of its own.
+`documents` (files that a person writes), `manifest` (→ a plan), `keys` (what a result depends on), `figures` (a
+machine's row), `child` (what runs in an item's process), `attending` (that process, watched over), `pool` and `on_ray`
+(who runs them), `results` and `gallery` (table and page), `batch` (the whole way); `variants` is a room of its own.
 """
 
 from __future__ import annotations

@@ -1,4 +1,4 @@
-"""A batch, the whole way: what a manifest asks for, what is there already, the rest run, and the results put together."""
+"""A batch, the whole way: what a manifest asks for, what is there, the rest run, and the results put together."""
 
 from __future__ import annotations
 
@@ -8,11 +8,12 @@ from pathlib import Path
 from typing import Any, Literal
 
 from yellowiron.fleet import gallery
+from yellowiron.fleet.figures import COLUMNS
 from yellowiron.fleet.keys import Keys
 from yellowiron.fleet.manifest import read_manifest, shard_of
 from yellowiron.fleet.places import Store, store_at
 from yellowiron.fleet.pool import LocalRunner, Runner, usual_jobs
-from yellowiron.fleet.results import COLUMNS, PLAIN, TABLE, as_csv, as_parquet, has_parquet, marks_of, rows_of
+from yellowiron.fleet.results import PLAIN, TABLE, as_csv, as_parquet, has_parquet, marks_of, rows_of
 from yellowiron.fleet.values import BUILT, CODES, PASSING, Item, Outcome, Plan
 from yellowiron.support import stopping
 

@@ -1,7 +1,7 @@
 """Files that a person writes for a fleet: YAML, TOML, JSON or CSV, read into plain values.
 
-What such a file may say is a table of `Key`s, from which errors name the place and the nearest word; JSON Schemas of the
-same are in `schema/`, for editors.
+What such a file may say is a table of `Key`s, from which errors name the place and the nearest word; JSON Schemas of
+the same are in `schema/`, for editors.
 """
 
 from __future__ import annotations

@@ -35,8 +35,8 @@ FIGURES: Mapping[str, Kind] = {
     "engine_findings": "integer",
     "pin_error_mm": "number",
 }
-"""Of a machine that was built. `worst_error_percent` is of lengths, masses and forces, `worst_error_deg` of angles, both
-of published values alone; `pin_error_mm` is the largest of the engines that drove it."""
+"""Of a machine that was built. `worst_error_percent` is of lengths, masses and forces, `worst_error_deg` of angles,
+both of published values alone; `pin_error_mm` is the largest of the engines that drove it."""
 
 COLUMNS: Mapping[str, Kind] = {
     "id": "text",

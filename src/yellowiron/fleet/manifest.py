@@ -1,4 +1,4 @@
-"""A manifest → the plan of a batch: machines one by one, or by a pattern of files with `{stem}` in what goes with them."""
+"""A manifest → the plan of a batch: machines one by one, or by a pattern of files, with `{stem}` in what goes along."""
 
 from __future__ import annotations
 
@@ -37,6 +37,7 @@ _MANIFEST: Mapping[str, Key] = {"defaults": Key("table"), "machines": Key("table
 _ID = re.compile(r"[A-Za-z0-9][A-Za-z0-9._-]{0,99}")
 _UNFIT = re.compile(r"[^A-Za-z0-9._-]+")
 _MAGIC = re.compile(r"[*?\[]")
+_PLAIN = ("set", "config", "tracks", "mirror", "page", "engines")
 _MOST = 100_000
 
 
@@ -139,9 +140,13 @@ def _item(said: Mapping[str, Any], base: str, where: str) -> Item:
         memory_mb=said.get("memory", Item.memory_mb),
         where=where,
     )
-    plain = {name: said[name] for name in ("set", "config", "tracks", "mirror", "page", "engines") if name in said}
-    paths = {name: tuple(joined(base, each) for each in said[name]) for name in ("specs", "data") if name in said}
-    alignment = {"alignment": joined(base, said["alignment"])} if said.get("alignment") else {}
+    plain: dict[str, Any] = {
+        name: said[name] for name in ("set", "config", "tracks", "mirror", "page", "engines") if name in said
+    }
+    paths: dict[str, Any] = {
+        name: tuple(joined(base, each) for each in said[name]) for name in ("specs", "data") if name in said
+    }
+    alignment: dict[str, Any] = {"alignment": joined(base, said["alignment"])} if said.get("alignment") else {}
     return replace(made, **plain, **paths, **alignment)
 
 

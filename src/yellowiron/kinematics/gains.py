@@ -207,9 +207,7 @@ def poses_of(
         yield pose, outside
 
 
-def looks(
-    chain: ClosedChain, poses: Iterable[tuple[State, Sequence[str]]], driven: tuple[str, ...]
-) -> Iterator[Look]:
+def looks(chain: ClosedChain, poses: Iterable[tuple[State, Sequence[str]]], driven: tuple[str, ...]) -> Iterator[Look]:
     """What is felt in poses; nothing in one that is a dead point."""
     columns = [chain.independent.index(name) for name in driven]
     load = rated_load(chain.mechanism)

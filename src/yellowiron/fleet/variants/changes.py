@@ -100,10 +100,11 @@ def _moved(point: Vector, axis: int, by: float) -> Vector:
 
 def _friction(work: Changed, parameter: Parameter, name: str, value: float) -> None:
     material = work.materials[name]
-    dynamic = max(0.0, _said(parameter, material.dynamic_friction, value))
+    before = material.dynamic_friction or 0.0
+    dynamic = max(0.0, _said(parameter, before, value))
     # What is said as a value is of what slides; what sticks keeps its share.
-    ratio = dynamic / material.dynamic_friction if material.dynamic_friction else 1.0
-    work.materials[name] = replace(material, dynamic_friction=dynamic, static_friction=material.static_friction * ratio)
+    static = (material.static_friction or 0.0) * (dynamic / before if before else 1.0)
+    work.materials[name] = replace(material, dynamic_friction=dynamic, static_friction=max(static, dynamic))
 
 
 def _gain(work: Changed, parameter: Parameter, name: str, value: float) -> None:
@@ -258,7 +259,9 @@ def _turn(axis: int, angle: float) -> Floats:
 
 def _noise(work: Changed, parameter: Parameter, name: str, value: float) -> None:
     sensor = work.sensors[name]
-    new = {key: max(0.0, _said(parameter, sensor.parameters[key], value)) for key in _NOISES if key in sensor.parameters}
+    new = {
+        key: max(0.0, _said(parameter, sensor.parameters[key], value)) for key in _NOISES if key in sensor.parameters
+    }
     if not new:
         raise UnusableError(f"'{name}' has no noise", where=parameter.where, hint="Name others with of: […].")
     work.sensors[name] = replace(sensor, parameters={**sensor.parameters, **new})

@@ -1,7 +1,7 @@
 """Variants as what differs from the base's MJCF: element → attribute → value, and such a variant put together again.
 
-The base is exported once. A variant is exported without its meshes, which do not vary, and held against the base done so
-too; colliders are told apart, by their materials and wheels.
+The base is exported once. A variant is exported without its meshes, which do not vary, and held against the base done
+so too; colliders are told apart, by their materials and wheels.
 """
 
 from __future__ import annotations
@@ -88,18 +88,19 @@ class Deltas:
             changed = {name: attributes.get(name) for name in names if attributes.get(name) != before.get(name)}
             if changed:
                 delta[key] = changed
-        for key, attributes in self._touching(work, variant):
-            delta.setdefault(key, {}).update(attributes)
+        for key, touching in self._touching(work, variant):
+            delta.setdefault(key, {}).update(touching)
         stem.with_suffix(SUFFIX).write_text(to_json({**record, "delta": delta}), encoding="utf-8")
 
     def _touching(self, work: Changed, variant: Mechanism) -> Iterator[tuple[str, dict[str, str | None]]]:
         """Frictions and radii of colliders."""
         materials = list(self._base.materials)
-        for body, geom in self._geoms:
+        for _, geom in self._geoms:
             place = round(float(geom.get("friction", "0").split()[0]))
             name = materials[place - 1] if place else ""
             if name and variant.materials[name] != self._base.materials[name]:
-                yield f"geom {geom.get('name')}", {"friction": text(variant.materials[name].dynamic_friction)}
+                friction = variant.materials[name].dynamic_friction
+                yield f"geom {geom.get('name')}", {"friction": None if friction is None else text(friction)}
         for wheel, factor in work.radii.items():
             own = [geom for body, geom in self._geoms if body == wheel and geom.get("type") in _ROUND]
             sizes = [[float(each) for each in str(geom.get("size")).split()] for geom in own]

@@ -79,8 +79,8 @@ _TOOL: Mapping[str, Key] = {
 
 @dataclass(frozen=True)
 class Spread:
-    """How values are spread. `uniform` and `loguniform` between `numbers[0]` and `[1]`; `normal` about `numbers[0]` with
-    the standard deviation `[1]`, between `low` and `high`; one of the `numbers`, or of the `words`, of a `choice`."""
+    """How values are spread. `uniform` and `loguniform` between `numbers[0]` and `[1]`; `normal` about `numbers[0]`
+    with the standard deviation `[1]`, between `low` and `high`; one of `numbers`, or of `words`, of a `choice`."""
 
     kind: Literal["uniform", "normal", "loguniform", "choice"]
     numbers: tuple[float, ...] = ()
@@ -91,8 +91,8 @@ class Spread:
 
 @dataclass(frozen=True)
 class Parameter:
-    """Something that varies, SI. `of` are patterns of names (`*` and `?`); `each`: every one that fits has a value of its
-    own, else all have the same. `axis` is 0, 1 or 2 of the machine's frame; `ends` are the joints at both ends of a
+    """Something that varies, SI. `of` are patterns of names (`*` and `?`); `each`: every one that fits has a value of
+    its own, else all have the same. `axis` is 0, 1 or 2 of the machine's frame; `ends` are the joints at both ends of a
     link, of which the second moves; `tools` what a tool may be, by its name."""
 
     name: str
@@ -174,9 +174,13 @@ def _spread(given: Any, dimension: str, where: str) -> Spread:
         raise UnusableError("'within' is of a normal spread: two numbers", where=where, hint="within: [low, high]")
     low, high = (each if each in (-math.inf, math.inf) else _number(each, dimension, where) for each in bounds)
     ordered = numbers[0] <= numbers[1] if kind in ("uniform", "loguniform") else True
-    fits = ordered and low < high and (kind != "loguniform" or numbers[0] > 0.0) and (kind != "normal" or numbers[1] > 0.0)
+    fits = (
+        ordered and low < high and (kind != "loguniform" or numbers[0] > 0.0) and (kind != "normal" or numbers[1] > 0.0)
+    )
     if not fits:
-        raise UnusableError("These numbers spread nothing", where=f"{where}.{kind}", hint="The smaller one stands first.")
+        raise UnusableError(
+            "These numbers spread nothing", where=f"{where}.{kind}", hint="The smaller one stands first."
+        )
     return Spread(kind, numbers, low, high)  # type: ignore[arg-type]
 
 

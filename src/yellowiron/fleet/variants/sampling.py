@@ -1,12 +1,13 @@
-"""Draws: a table of numbers by seed, sample and parameter, that neither another parameter nor a larger count changes."""
+"""Draws: a table of numbers by seed, sample and parameter, that no other parameter and no larger count changes."""
 
 from __future__ import annotations
 
 import math
 import zlib
-from collections.abc import Sequence
+from collections.abc import Mapping, Sequence
 from dataclasses import dataclass, replace
 from fnmatch import fnmatchcase
+from typing import Any
 
 import numpy as np
 from scipy.special import ndtr, ndtri
@@ -64,9 +65,13 @@ def names_of(target: Target, mechanism: Mechanism) -> tuple[str, ...]:
         return tuple(j.name for j in mechanism.joints if j.type == "revolute" and j.name in looped)
     if target == "sensors":
         return tuple(sensor.name for sensor in mechanism.sensors)
-    values = {"bodies": mechanism.bodies, "actuators": mechanism.actuators, "cylinders": mechanism.cylinders,
-              "joints": mechanism.joints}[target]  # fmt: skip
-    return tuple(value.name for value in values)
+    values: Mapping[str, Sequence[Any]] = {
+        "bodies": mechanism.bodies,
+        "actuators": mechanism.actuators,
+        "cylinders": mechanism.cylinders,
+        "joints": mechanism.joints,
+    }
+    return tuple(value.name for value in values[target])
 
 
 def drawn(draws: Sequence[Draw], *, seed: int, count: int) -> list[Floats]:

@@ -1,6 +1,6 @@
 """What follows from a changed machine's loops: whether they close over the strokes, limits of what they move, gains.
 
-The base machine is looked at once, over all poses that a build looks at. Of those, the ones that decide remain: in which
+The base machine is looked at once, over all poses that a build looks at. Of those, the ones that decide remain: where
 a joint is at an end of its range, a drive's step bears least, a weight or a mass is the usual one. A variant is solved
 in these alone, from the base's solution. Where nothing is changed, the base's own numbers come out.
 """
@@ -67,7 +67,7 @@ class Basis:
         self._poses: list[_Pose] = []
         self._known: dict[bytes, int] = {}
         self._corners = [self._add(grid.states[c]) for grid in grids for c in grid.corners]
-        self._limited = {}
+        self._limited: dict[str, tuple[list[tuple[int, float]], float]] = {}
         for component, grid in zip(chain.components(), grids, strict=True):
             self._look_at_limits(component.dependent + component.cuts, grid)
         self.driven = driven_by(chain, self._joints)
@@ -198,9 +198,7 @@ class Basis:
             low, high = min(values) - margin, max(values) + margin
             joints[name] = replace(joints[name], lower=low, upper=high)
 
-    def _gain(
-        self, chain: ClosedChain, states: Sequence[State], joints: dict[str, Joint], changed: Changed
-    ) -> None:
+    def _gain(self, chain: ClosedChain, states: Sequence[State], joints: dict[str, Joint], changed: Changed) -> None:
         if not self.driven:
             return
         wanted: dict[int, list[str]] = {number: [] for number, _ in self._bearing}

@@ -3,14 +3,11 @@
 from __future__ import annotations
 
 import json
-import shutil
 from collections.abc import Callable, Iterator, Mapping, Sequence
 from concurrent.futures import ThreadPoolExecutor
 from dataclasses import dataclass
 from pathlib import Path
 from typing import Any, Literal
-
-import numpy as np
 
 import yellowiron
 from yellowiron.fleet.documents import UnusableError
@@ -22,7 +19,6 @@ from yellowiron.fleet.variants.parameters import read_parameters
 from yellowiron.fleet.variants.sampling import Draw, drawn, draws_of
 from yellowiron.fleet.variants.solving import Basis, RefusedError
 from yellowiron.fleet.variants.tools import Tools, read_tools
-from yellowiron.model.errors import YellowironError
 from yellowiron.model.geometry import Floats
 from yellowiron.model.mechanism import Mechanism
 from yellowiron.support.guard import Wording, run_guarded
@@ -125,7 +121,9 @@ class Maker:
         self.draws: tuple[Draw, ...] = draws_of(said, self.mechanism)
         self.tools: Tools = read_tools(said, self.mechanism, parameters)
         self._basis = Basis(self.mechanism)
-        self._writer: Layers | Deltas = (Layers if to == "usd" else Deltas)(self.mechanism, file, self.draws, self.tools)
+        self._writer: Layers | Deltas = (Layers if to == "usd" else Deltas)(
+            self.mechanism, file, self.draws, self.tools
+        )
 
     def values(self, count: int) -> list[Floats]:
         """The values (count,) of each column."""
@@ -161,14 +159,12 @@ def shown(draw: Draw, value: float) -> float | str:
 
 def height(work: Changed) -> float:
     """How much higher the variant stands, metres."""
-    from yellowiron.usd.layers.variant import stand_height
+    from yellowiron.usd.variant import stand_height
 
     return stand_height(work.mechanism, work.radii) if work.radii else 0.0
 
 
-def _all(
-    maker: Maker, folder: Path, count: int, jobs: int, progress: Callable[[str], None]
-) -> list[_Made]:
+def _all(maker: Maker, folder: Path, count: int, jobs: int, progress: Callable[[str], None]) -> list[_Made]:
     """Samples in the order of their numbers, until so many are good."""
     made: list[_Made] = []
     good = 0
@@ -252,28 +248,3 @@ def unit_of(draw: Draw) -> str:
     from yellowiron.support.units import SI_UNIT
 
     return "" if draw.parameter.mode == "factor" else SI_UNIT.get(draw.parameter.quantity.dimension, "")
-
-
-def copy_machine(file: Path, folder: Path) -> Path:
-    """A machine's file and its payloads, copied."""
-    folder.mkdir(parents=True)
-    try:
-        shutil.copyfile(file, folder / file.name)
-        shutil.copytree(file.parent / "payloads", folder / "payloads")
-    except OSError as error:
-        raise YellowironError(
-            f"The machine cannot be copied: {error.strerror}", where=str(file), hint="Build it again."
-        ) from error
-    return folder / file.name
-
-
-def wheels_of(mechanism: Mechanism, draws: Sequence[Draw]) -> dict[str, tuple[Floats, float]]:
-    """The wheels whose radius varies: axis (3,) and radius, metres."""
-    found = {}
-    for draw in draws:
-        for name in draw.names if draw.parameter.vary == "tyre_radius" else ():
-            joint = next(j for j in mechanism.joints if j.body1 == name and not j.cut)
-            axis = np.asarray(joint.axis)
-            out = mechanism.body(name).hull - np.asarray(joint.anchor)
-            found[name] = (axis, float(np.linalg.norm(out - np.outer(out @ axis, axis), axis=1).max(initial=0.0)))
-    return found

@@ -1,7 +1,7 @@
 """A variant of a machine: a small layer over its file, of opinions on prims that are there and of nothing else.
 
 What differs from the base is written as `write` would have written it, in attributes and in `customData`, so that
-`read_mechanism` gives the variant back and checks find nothing edited. Physics is in the base's variant `Physics` = `on`.
+`read_mechanism` gives the variant back and checks find nothing edited. Physics is in the variant `Physics` = `on`.
 Bodies stay where they are drawn; meshes are the base's.
 """
 
@@ -314,4 +314,3 @@ def stand_height(base: Mechanism, radii: Mapping[str, float]) -> float:
 
 def _raise(layer: Sdf.Layer, base: Mechanism, prims: MachinePrims, radii: Mapping[str, float]) -> None:
     set_placement(over(layer, prims.root), (0.0, 0.0, stand_height(base, radii)))
-
