@@ -7,7 +7,7 @@ parameters; out come small USD layers, or MJCF deltas, and a table of what was s
 In the order in which they build on each other: `values` (items, plans, outcomes), `places` (folders and addresses),
 `documents` (files that a person writes), `manifest` (→ a plan), `keys` (what a result depends on), `figures` (a
 machine's row), `child` (what runs in an item's process), `attending` (that process, watched over), `pool` and `on_ray`
-(who runs them), `results` and `gallery` (table and page), `batch` (the whole way); `variants` is a room of its own.
+(who runs them), `results` and `gallery` (table and page), `whole` (the whole way); `variants` is a room of its own.
 """
 
 from __future__ import annotations
@@ -17,7 +17,7 @@ from typing import TYPE_CHECKING
 from yellowiron.support.lazy import lazy_names
 
 if TYPE_CHECKING:
-    from yellowiron.fleet.batch import Choice, Fleet, batch, planned
+    from yellowiron.fleet.whole import Choice, Fleet, batch, planned
     from yellowiron.fleet.documents import schema
     from yellowiron.fleet.manifest import read_manifest
     from yellowiron.fleet.on_ray import RayRunner
@@ -44,16 +44,16 @@ __all__ = [
 __getattr__, __dir__ = lazy_names(
     __name__,
     {
-        "Choice": "batch",
-        "Fleet": "batch",
+        "Choice": "whole",
+        "Fleet": "whole",
         "Item": "values",
         "LocalRunner": "pool",
         "Outcome": "values",
         "Plan": "values",
         "RayRunner": "on_ray",
         "Varied": "variants",
-        "batch": "batch",
-        "planned": "batch",
+        "batch": "whole",
+        "planned": "whole",
         "read_manifest": "manifest",
         "schema": "documents",
         "vary": "variants",
