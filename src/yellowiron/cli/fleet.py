@@ -71,7 +71,7 @@ def _ended(outcome: Any, ended: int, of: int) -> None:
 def _choices(choices: Any) -> Any:
     table = _table("", "machine", "type", "why")
     for choice in choices:
-        table.add_row("run" if choice.run else "there", choice.item.id, choice.item.type, choice.why)
+        table.add_row("run" if choice.run else "there", choice.item.id, Path(choice.item.type).name, choice.why)
     running = sum(choice.run for choice in choices)
     table.add_row("", "", "", "")
     table.add_row("", f"{running} of {len(choices)} would be run", "", "")
@@ -87,7 +87,7 @@ def _summary(made: Any) -> Any:
         said = row["verdict"] if row["verdict"] and not row["open"] else row["open"] or row["message"]
         words = Text.assemble((_SAID.get(status, status), _STYLE.get(status, "red")), f"  {said}" if said else "")
         seconds = "" if row["seconds"] is None else f"{row['seconds']:.1f} s"
-        table.add_row(row["id"], row["type"], words, "" if worst is None else f"{worst:.2f} %", seconds)
+        table.add_row(row["id"], Path(row["type"]).name, words, "" if worst is None else f"{worst:.2f} %", seconds)
     table.add_row("", "", "", "", "")
     files = "index.html, fleet.parquet and fleet.csv" if made.parquet else "index.html and fleet.csv"
     table.add_row(Text(f"{made.address}: {files}", "dim"), "", "", "", "")

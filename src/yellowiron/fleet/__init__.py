@@ -17,13 +17,13 @@ from typing import TYPE_CHECKING
 from yellowiron.support.lazy import lazy_names
 
 if TYPE_CHECKING:
-    from yellowiron.fleet.whole import Choice, Fleet, batch, planned
     from yellowiron.fleet.documents import schema
     from yellowiron.fleet.manifest import read_manifest
     from yellowiron.fleet.on_ray import RayRunner
     from yellowiron.fleet.pool import LocalRunner
     from yellowiron.fleet.values import Item, Outcome, Plan
     from yellowiron.fleet.variants import Varied, vary
+    from yellowiron.fleet.whole import Choice, Fleet, batch, planned
 
 __all__ = [
     "Choice",

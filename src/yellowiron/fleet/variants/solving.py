@@ -213,7 +213,7 @@ class Basis:
                 seen[number] = look
         felt = self._felt_by(seen)
         for name in self.driven:
-            joints[name] = replace(joints[name], drive=_provisional(self._drive(name), joints[name].drive))
+            joints[name] = replace(joints[name], drive=provisional(self._drive(name), joints[name].drive))
         give_gains(chain, felt, joints, ringed=bool(self.mechanism.floating))
         for name in self.driven:
             drive = joints[name].drive
@@ -239,7 +239,7 @@ class Basis:
         return Felt(self.driven, np.array(free) if free else self._felt.free, moved, force)
 
 
-def _provisional(base: Drive, drive: Drive | None) -> Drive:
+def provisional(base: Drive, drive: Drive | None) -> Drive:
     """A variant's drive before its gains are worked out: without those that the base's were worked out to be."""
     assert drive is not None
     if drive.kind == "velocity":
