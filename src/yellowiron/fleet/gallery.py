@@ -7,7 +7,7 @@ view, so that ten thousand machines stay usable.
 from __future__ import annotations
 
 import json
-from collections.abc import Sequence
+from collections.abc import Collection, Sequence
 from importlib import resources
 from typing import Any
 
@@ -23,12 +23,14 @@ _SHOWN = (
 )  # fmt: skip
 
 
-def page(title: str, rows: Sequence[Row]) -> bytes:
-    """The page: it says nothing that differs from run to run."""
+def page(title: str, rows: Sequence[Row], paged: Collection[str]) -> bytes:
+    """The page: it says nothing that differs from run to run. `paged`: the ids of items that have a report."""
     entries = []
     for row in rows:
         entry = {name: row[name] for name in _SHOWN if row[name] not in (None, "", 0)}
         if row["status"] in BUILT:
+            entry["built"] = True
+        if row["status"] in BUILT and row["id"] in paged:
             entry["report"] = f"{ITEMS}/{row['id']}/{MACHINE}/report.html"
             entry["picture"] = f"{ITEMS}/{row['id']}/{PICTURE}"
         entries.append(entry)

@@ -5,7 +5,8 @@ from __future__ import annotations
 import hashlib
 import json
 import os
-from dataclasses import asdict
+import stat
+from dataclasses import astuple, fields
 from pathlib import Path
 
 import yellowiron
@@ -15,6 +16,7 @@ from yellowiron.model.errors import YellowironError
 
 _APART = ("id", "where", "timeout_s", "memory_mb")
 """Fields of an item that its result does not depend on."""
+_OPTIONS = tuple(field.name for field in fields(Item) if field.name not in _APART)
 _CHUNK = 1 << 20
 
 
@@ -27,7 +29,8 @@ class Keys:
 
     def of(self, item: Item) -> str:
         """The key of an item: hexadecimal digits. A file that is not there counts as that."""
-        options = {name: value for name, value in asdict(item).items() if name not in _APART}
+        options = {name: getattr(item, name) for name in _OPTIONS}
+        options["variants"] = astuple(item.variants) if item.variants else None
         inputs = {place: self._digest(place) for place in item.inputs}
         own = self._digest(item.type) if "/" in item.type else ""
         inputs[item.cad] += self._linked(item.cad)
@@ -36,37 +39,37 @@ class Keys:
 
     def _digest(self, place: str) -> str:
         if place not in self._known:
-            self._known[place] = _remote(place) if is_remote(place) else _local(Path(place))
+            self._known[place] = _remote(place) if is_remote(place) else _local(place)
         return self._known[place]
 
     def _linked(self, cad: str) -> str:
         """Of the files beside a model that its format may have it refer to: once for all models of a folder."""
         if is_remote(cad):
             return ""
-        path = Path(cad)
-        place = (str(path.parent), path.suffix.lower())
+        folder, _, name = cad.rpartition("/")
+        place = (folder, name.rpartition(".")[2].lower())
         if place not in self._beside:
             from yellowiron.cad import files_of
 
             try:
-                files = files_of(path) or ()
+                files = files_of(Path(cad)) or ()
             except (OSError, YellowironError):  # told when the item runs
                 files = ()
             self._beside[place] = "".join(self._digest(str(file)) for file in files[1:])
         return self._beside[place]
 
 
-def _local(path: Path) -> str:
+def _local(path: str) -> str:
     """Of a file's bytes, or of all files' in a folder with their names; `absent` where there is neither."""
     digest = hashlib.sha256()
     try:
-        if path.is_dir():
+        if stat.S_ISDIR(os.stat(path).st_mode):  # noqa: PTH116 - ten thousand of these are looked at
             for place, folders, names in os.walk(path):
                 folders.sort()
                 for name in sorted(names):
                     file = Path(place, name)
                     digest.update(str(file.relative_to(path)).encode(errors="surrogateescape") + b"\0")
-                    _feed(digest, file)
+                    _feed(digest, str(file))
         else:
             _feed(digest, path)
     except (OSError, ValueError):
@@ -74,10 +77,10 @@ def _local(path: Path) -> str:
     return digest.hexdigest()
 
 
-def _feed(digest: hashlib._Hash, file: Path) -> None:
-    if not file.is_file():  # a pipe would be waited for
+def _feed(digest: hashlib._Hash, file: str) -> None:
+    if not stat.S_ISREG(os.stat(file).st_mode):  # noqa: PTH116 - a pipe would be waited for
         raise OSError
-    with file.open("rb") as stream:
+    with open(file, "rb", buffering=0) as stream:  # noqa: PTH123
         while chunk := stream.read(_CHUNK):
             digest.update(chunk)
 

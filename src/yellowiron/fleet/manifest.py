@@ -2,11 +2,12 @@
 
 from __future__ import annotations
 
+import functools
 import glob
 import re
 from collections.abc import Iterator, Mapping
 from dataclasses import replace
-from pathlib import Path, PurePosixPath
+from pathlib import Path
 from typing import Any
 
 from yellowiron.fleet.documents import Key, UnusableError, checked, read_document
@@ -85,11 +86,12 @@ def _items(said: Mapping[str, Any], base: str, where: str) -> Iterator[Item]:
         raise UnusableError("'type' is missing", where=where, hint="Say it there, or in defaults: type: wheel_loader")
     files = _files(joined(base, said["cad"]), where)
     for file in files:
-        path = PurePosixPath(file)
-        words = {"stem": path.stem, "name": path.name, "parent": path.parent.name}
-        filled = {name: _filled(value, words) for name, value in said.items()}
+        folder, _, name = file.rpartition("/")
+        stem = name.rpartition(".")[0] or name
+        words = {"{stem}": stem, "{name}": name, "{parent}": folder.rpartition("/")[2]}
+        filled = {key: _filled(value, words) for key, value in said.items()}
         if "id" not in filled:
-            filled["id"] = _UNFIT.sub("_", path.stem).strip("_.-")[:100] or "machine"
+            filled["id"] = _UNFIT.sub("_", stem).strip("_.-")[:100] or "machine"
         yield _item({**filled, "cad": file}, base, where)
 
 
@@ -112,8 +114,8 @@ def _files(cad: str, where: str) -> list[str]:
 
 def _filled(value: Any, words: Mapping[str, str]) -> Any:
     if isinstance(value, str):
-        for name, word in words.items():
-            value = value.replace(f"{{{name}}}", word)
+        for name, word in words.items() if "{" in value else ():
+            value = value.replace(name, word)
         return value
     return tuple(_filled(each, words) for each in value) if isinstance(value, tuple) else value
 
@@ -125,7 +127,7 @@ def _item(said: Mapping[str, Any], base: str, where: str) -> Item:
             hint="Letters, digits, '.', '_' and '-', at most a hundred.",
         )  # fmt: skip
     kind = said["type"]
-    if "/" in kind or (not is_remote(base) and Path(base, kind).is_dir()):
+    if "/" in kind or _is_folder(base, kind):
         kind = joined(base, kind)
     variants = None
     if "variants" in said:
@@ -148,6 +150,11 @@ def _item(said: Mapping[str, Any], base: str, where: str) -> Item:
     }
     alignment: dict[str, Any] = {"alignment": joined(base, said["alignment"])} if said.get("alignment") else {}
     return replace(made, **plain, **paths, **alignment)
+
+
+@functools.lru_cache(maxsize=256)
+def _is_folder(base: str, name: str) -> bool:
+    return not is_remote(base) and Path(base, name).is_dir()
 
 
 def shard_of(plan: Plan, shard: str) -> Plan:

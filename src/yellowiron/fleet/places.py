@@ -108,7 +108,8 @@ class _Local:
 
     def read(self, name: str) -> bytes | None:
         try:
-            return (self.folder / name).read_bytes()
+            with open(f"{self.address}/{name}", "rb", buffering=0) as file:  # noqa: PTH123 - thousands are looked for
+                return file.read()
         except OSError:
             return None
 

@@ -136,7 +136,7 @@ def collected(plan: Plan, store: Store) -> tuple[list[dict[str, Any]], bool]:
     if parquet:
         store.write(TABLE, as_parquet(COLUMNS, rows))
     store.write(gallery.TIMES, gallery.times(rows))
-    store.write(gallery.PAGE, gallery.page(title, rows))
+    store.write(gallery.PAGE, gallery.page(title, rows, {item.id for item in plan.items if item.page}))
     return rows, parquet
 
 
