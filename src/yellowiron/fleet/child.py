@@ -22,6 +22,7 @@ MACHINE, PICTURE = "machine", "picture.webp"
 """What an item's folder has beside its `MARK`: the build's folder, and a small picture."""
 _PICTURE = re.compile(r'<img alt="The machine in the drawn pose" src="data:image/webp;base64,([A-Za-z0-9+/=]+)"')
 _SIZE = (448, 240)
+_PACKAGE = str(Path(__file__).resolve().parent.parent)
 _FULL = (errno.ENOSPC, errno.EDQUOT, errno.EIO, errno.EROFS, errno.EFBIG)
 
 
@@ -56,7 +57,8 @@ def build_item(item: Item, folder: Path, inputs: Path) -> Outcome:
     except OutputError as error:
         return Outcome(item.id, "disk", error.message, item.id, error.hint)
     except YellowironError as error:
-        return Outcome(item.id, "refused", error.message, error.where, error.hint)
+        # Where the program is installed says nothing of the item, and differs between machines.
+        return Outcome(item.id, "refused", error.message, error.where.replace(_PACKAGE, "yellowiron"), error.hint)
     except MemoryError:
         return Outcome(item.id, "memory", "There is not enough memory", item.id, "Give it more, or split the model.")
     except OSError as error:
