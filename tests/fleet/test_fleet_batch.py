@@ -18,7 +18,7 @@ from kit.builds import console
 from kit.fleets import content, write_manifest
 from yellowiron.fleet import batch, planned
 from yellowiron.fleet.keys import Keys
-from yellowiron.fleet.places import store_at
+from yellowiron.fleet.places import staged, store_at
 from yellowiron.fleet.pool import LocalRunner
 from yellowiron.fleet.values import Item
 from yellowiron.model.errors import OutputError
@@ -238,7 +238,7 @@ def test_a_key_is_of_bytes_and_options_and_not_of_places_in_the_manifest(tmp_pat
 def test_a_store_is_whole_or_absent(tmp_path: Path) -> None:
     store = store_at(tmp_path / "out")
     for text in ("first", "second"):
-        made = store.staging() / "a" / "new"
+        made = store.staging() / staged("a") / "new"
         made.mkdir(parents=True)
         (made / "item.json").write_text(text)
         (made / text).touch()

@@ -119,6 +119,7 @@ def test_two_files_of_one_entry_need_ids_of_their_own(tmp_path: Path) -> None:
 
 def test_a_template_folder_is_found_beside_the_manifest(tmp_path: Path) -> None:
     (tmp_path / "mine").mkdir()
+    (tmp_path / "excavator").mkdir()  # a build's folder, say: the library's type is meant
     one, two = items(tmp_path, {"cad": "a.glb", "type": "mine"}, {"cad": "b.glb", "type": "excavator"})
     assert (one.type, two.type) == (str(tmp_path / "mine"), "excavator")
 

@@ -13,7 +13,7 @@ from dataclasses import asdict, dataclass, replace
 from pathlib import Path
 from typing import Any
 
-from yellowiron.fleet.places import MARK, Store
+from yellowiron.fleet.places import MARK, Store, staged
 from yellowiron.fleet.values import BUILT, Item, Outcome
 from yellowiron.model.errors import OutputError
 from yellowiron.support import guard, isolated, limits
@@ -45,8 +45,8 @@ class Child:
 
     @classmethod
     def start(cls, item: Item, key: str, staging: Path) -> Child:
-        """Starts it, in a new session, in a folder of its own in `staging`. `OutputError` where that cannot be made."""
-        place = staging / item.id
+        """Starts it, in a new session, in a folder of its own in `staging`. `OutputError` where it cannot be."""
+        place = staging / staged(item.id)
         try:
             shutil.rmtree(place, ignore_errors=True)
             for name in ("new", "tmp"):
@@ -56,15 +56,15 @@ class Child:
                 "answer": str(place / "answer"),
             }  # fmt: skip
             (place / "call").write_text(json.dumps(call), encoding="utf-8")
+            environment = {**isolated.shielded(os.environ), "TMPDIR": str(place / "tmp")}
+            process = subprocess.Popen(
+                guard.child_command(RUN, str(place / "call")),
+                stdin=subprocess.DEVNULL, stdout=subprocess.DEVNULL, stderr=subprocess.DEVNULL,
+                env=environment, start_new_session=True,
+            )  # fmt: skip
         except OSError as error:
             said = error.strerror or str(error)
-            raise OutputError(f"The output cannot be written: {said}", where=item.id, hint="Make room.") from error
-        environment = {**isolated.shielded(os.environ), "TMPDIR": str(place / "tmp")}
-        process = subprocess.Popen(
-            guard.child_command(RUN, str(place / "call")),
-            stdin=subprocess.DEVNULL, stdout=subprocess.DEVNULL, stderr=subprocess.DEVNULL,
-            env=environment, start_new_session=True,
-        )  # fmt: skip
+            raise OutputError(f"The build cannot be started: {said}", where=item.id, hint="Make room.") from error
         return cls(item, key, process, place, time.monotonic())
 
     def ended(self) -> Outcome | None:

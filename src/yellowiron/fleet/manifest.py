@@ -127,7 +127,7 @@ def _item(said: Mapping[str, Any], base: str, where: str) -> Item:
             hint="Letters, digits, '.', '_' and '-', at most a hundred.",
         )  # fmt: skip
     kind = said["type"]
-    if "/" in kind or _is_folder(base, kind):
+    if "/" in kind or (kind not in _library() and _is_folder(base, kind)):
         kind = joined(base, kind)
     variants = None
     if "variants" in said:
@@ -150,6 +150,14 @@ def _item(said: Mapping[str, Any], base: str, where: str) -> Item:
     }
     alignment: dict[str, Any] = {"alignment": joined(base, said["alignment"])} if said.get("alignment") else {}
     return replace(made, **plain, **paths, **alignment)
+
+
+@functools.cache
+def _library() -> frozenset[str]:
+    """The types that there are without a folder: a folder of such a name beside a manifest is none of them."""
+    from yellowiron import library
+
+    return frozenset(library.list_templates())
 
 
 @functools.lru_cache(maxsize=256)

@@ -19,7 +19,7 @@ from typing import Any
 
 from yellowiron.fleet.attending import Child, finished, installed
 from yellowiron.fleet.child import item_from
-from yellowiron.fleet.places import Store
+from yellowiron.fleet.places import Store, staged
 from yellowiron.fleet.pool import Work
 from yellowiron.fleet.values import Item, Outcome
 from yellowiron.model.errors import OutputError, YellowironError
@@ -97,7 +97,7 @@ def _told(ray: Any, reference: Any, item: Item, store: Store) -> Outcome:
         said = f"Its Ray task was lost, {_RETRIES} times over: {type(error).__name__}"
         return Outcome(item.id, "killed", said, item.cad, "--resume runs it again.")
     outcome = Outcome(**told)
-    place = store.staging() / item.id
+    place = store.staging() / staged(item.id)
     try:
         place.mkdir(parents=True, exist_ok=True)
         with tarfile.open(fileobj=io.BytesIO(packed)) as archive:

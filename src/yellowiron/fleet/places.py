@@ -62,6 +62,16 @@ def fetched(address: str, folder: Path) -> Path:
     return target
 
 
+def staged(name: str) -> str:
+    """What an item's folder is called in `staging` while this process makes it."""
+    return f"{name}.{os.getpid()}"
+
+
+def _at_work(process: str) -> bool:
+    """Whether a process, by its number, is another one that still runs."""
+    return process != str(os.getpid()) and process.isdecimal() and Path("/proc", process).exists()
+
+
 class Store(Protocol):
     """A folder of results, by names with slashes below it."""
 
@@ -83,7 +93,7 @@ class Store(Protocol):
         """A folder of this machine in which results are made."""
 
     def clear(self, names: Iterable[str]) -> None:
-        """Takes away what runs that were killed have left: of those names in `staging`, and half-written files."""
+        """Takes away what runs that are over have left: what was `staged` of those names, and half-written files."""
 
 
 def store_at(address: str | Path) -> Store:
@@ -145,13 +155,15 @@ class _Local:
         return self.folder / ".staging"
 
     def clear(self, names: Iterable[str]) -> None:
-        for name in names:
-            shutil.rmtree(self.staging() / name, ignore_errors=True)
+        known = set(names)
+        for left in self.staging().glob("*"):
+            name, _, writer = left.name.rpartition(".")
+            if name in known and not _at_work(writer):
+                shutil.rmtree(left, ignore_errors=True)
         with contextlib.suppress(OSError):
             self.staging().rmdir()
         for part in self.folder.glob(".*.part"):
-            writer = part.name.split(".")[-2]
-            if not Path("/proc", writer).exists():
+            if not _at_work(part.name.split(".")[-2]):
                 part.unlink(missing_ok=True)
 
 

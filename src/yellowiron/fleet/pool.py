@@ -13,6 +13,7 @@ from yellowiron.fleet.attending import Child, keep
 from yellowiron.fleet.places import Store
 from yellowiron.fleet.values import Item, Outcome
 from yellowiron.model.errors import OutputError
+from yellowiron.support import stopping
 
 _LOOK_S = 0.02
 _EACH_MB = 2500
@@ -61,7 +62,9 @@ class LocalRunner:
                         child.clear()
                         waiting.append((child.item, child.key, tries + 1))
                     else:
-                        yield keep(child, outcome, store)
+                        with stopping.shielded():
+                            outcome = keep(child, outcome, store)
+                        yield outcome
                 time.sleep(_LOOK_S)
         finally:
             for child, _ in running:
