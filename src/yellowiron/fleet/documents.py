@@ -74,7 +74,7 @@ def _yaml(text: str, address: str) -> Any:
     # The safe loader that is in C, where it is there: a fifth of the time.
     safe: Any = getattr(yaml, "CSafeLoader", yaml.SafeLoader)
 
-    class Loader(safe):  # type: ignore[misc]
+    class Loader(safe):
         """The same, which makes out once what the same word is."""
 
         known: ClassVar[dict[Any, Any]] = {}
