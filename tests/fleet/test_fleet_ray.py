@@ -35,18 +35,23 @@ def test_two_nodes_of_which_one_is_killed_give_the_same_bytes(tmp_path: Path, in
     made, nodes = cluster
     ended: list[str] = []
 
+    over = threading.Event()
+
     def kill() -> None:
-        while not ended:
-            time.sleep(0.05)
+        while not ended and not over.wait(0.05):
+            pass
         time.sleep(0.3)
         made.remove_node(nodes[1], allow_graceful=False)
 
     killer = threading.Thread(target=kill)
     killer.start()
-    fleet = batch(
-        manifest, tmp_path / "there", runner=RayRunner(made.address), told=lambda outcome, *_: ended.append(outcome.id)
-    )
-    killer.join()
+    try:
+        fleet = batch(
+            manifest, tmp_path / "there", runner=RayRunner(made.address), told=lambda one, *_: ended.append(one.id)
+        )
+    finally:
+        over.set()
+        killer.join()
     assert sorted(ended) == sorted(row["id"] for row in fleet.rows)
     assert content(tmp_path / "there") == content(tmp_path / "here")
 

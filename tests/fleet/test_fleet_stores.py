@@ -23,6 +23,7 @@ def test_addresses_are_joined_as_paths_are() -> None:
     assert joined("/a/b", "../d.step") == "/a/d.step"
     assert joined("s3://bucket/x", "c.step") == "s3://bucket/x/c.step"
     assert joined("/a", "s3://bucket/c.step") == "s3://bucket/c.step"
+    assert joined("s3://bucket/x", "/types/mine") == "/types/mine"
 
 
 def test_a_store_elsewhere_is_whole_or_absent(tmp_path: Path) -> None:

@@ -9,6 +9,7 @@ from __future__ import annotations
 
 import io
 import os
+import socket
 import tarfile
 import tempfile
 import time
@@ -26,6 +27,7 @@ from yellowiron.model.errors import OutputError, YellowironError
 
 _LOOK_S = 0.02
 _WAIT_S = 0.5
+_KNOCK_S = 10.0
 _RETRIES = 5
 """So many times a task is run again whose worker or node has died."""
 _AHEAD = 2
@@ -49,14 +51,12 @@ class RayRunner:
         ray = _ray()
         started = not ray.is_initialized()
         if started:
+            _knock(self.address)
             try:
                 ray.init(address=self.address or None, num_cpus=None if self.address else self.jobs,
                          include_dashboard=False, log_to_driver=False, logging_level="ERROR")  # fmt: skip
             except Exception as error:
-                raise YellowironError(
-                    f"The Ray cluster is not reached: {str(error).splitlines()[0][:200]}",
-                    where=self.address or "here", hint="`ray status` on its head says how it is; --address host:6379.",
-                ) from error  # fmt: skip
+                raise _unreached(self.address, str(error).splitlines()[0][:200]) from error
         running: dict[Any, Item] = {}
         try:
             task = ray.remote(num_cpus=1, max_retries=_RETRIES)(run_task)
@@ -78,6 +78,22 @@ class RayRunner:
     def _most(self, ray: Any) -> int:
         """Tasks under way at once: what the cluster has now, as nodes come and go."""
         return self.jobs or _AHEAD * max(1, int(ray.cluster_resources().get("CPU", 1)))
+
+
+def _knock(address: str) -> None:
+    """`YellowironError` at once where nobody answers at an address: Ray itself would wait for minutes."""
+    host, _, port = address.rpartition("://")[2].rpartition(":")
+    if not (host and port.isdecimal()):
+        return
+    try:
+        socket.create_connection((host, int(port)), timeout=_KNOCK_S).close()
+    except OSError as error:
+        raise _unreached(address, error.strerror or str(error)) from error
+
+
+def _unreached(address: str, why: str) -> YellowironError:
+    hint = "`ray status` on its head says how it is; --address HOST:6379."
+    return YellowironError(f"The Ray cluster is not reached: {why}", where=address or "here", hint=hint)
 
 
 def _ray() -> Any:

@@ -31,7 +31,7 @@ def is_remote(address: str) -> bool:
 
 def joined(base: str, name: str) -> str:
     """An address that a document in the folder `base` names: as it is where it is whole, else below `base`."""
-    if is_remote(name):
+    if is_remote(name) or (is_remote(base) and name.startswith("/")):
         return name
     if is_remote(base):
         return f"{base.rstrip('/')}/{name}"
