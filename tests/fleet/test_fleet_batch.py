@@ -257,3 +257,22 @@ def test_what_a_batch_needs_is_not_loaded_before(root: Path) -> None:
     code = f"import yellowiron.cli, yellowiron.fleet, sys; print([m for m in {modules} if m in sys.modules])"
     done = subprocess.run([sys.executable, "-c", code], capture_output=True, text=True, env=environment(root))
     assert done.stdout.strip() == "[]", done.stderr
+
+
+@pytest.mark.slow
+def test_a_manifest_asks_for_engines_and_variants(tmp_path: Path, inputs: Path) -> None:
+    said = {"parameters": {"mass": {"vary": "mass", "each": True, "factor": {"uniform": [0.9, 1.1]}}}}
+    (inputs / "variants.json").write_text(json.dumps(said))
+    asked = {"engines": ["mujoco"], "variants": {"file": "in/variants.json", "count": 3, "seed": 5}}
+    other = {**TWO[1], "variants": {"file": "in/no.json", "count": 1}}
+    manifest = write_manifest(tmp_path, [{**TWO[0], **asked}, other])
+    fleet = batch(manifest, tmp_path / "out", jobs=2)
+    rows = {row["id"]: row for row in fleet.rows}
+    assert rows["one"]["status"] == "short"
+    assert rows["one"]["engines"] == ["mujoco"]
+    assert rows["one"]["variants"] == 3
+    folder = tmp_path / "out" / "items" / "one" / "variants"
+    assert len(list((folder / "variants").glob("*.usdc"))) == 3
+    assert (folder / "base" / "small.usda").is_file()
+    assert (rows["two"]["status"], rows["two"]["message"][:27]) == ("refused", "The file of variants cannot")
+    assert not (tmp_path / "out" / "items" / "two" / "machine").exists()

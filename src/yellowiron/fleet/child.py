@@ -78,6 +78,10 @@ def _built(item: Item, folder: Path, inputs: Path) -> Outcome:
     for engine in item.engines:
         find_engine(engine)
     here = {place: _here(place, inputs, number) for number, place in enumerate(item.inputs)}
+    if item.variants is not None:
+        from yellowiron.fleet.variants.parameters import read_parameters
+
+        read_parameters(here[item.variants.file])  # what is wrong with it is said before anything slow
     kind = item.type if not places.is_remote(item.type) else str(places.fetched(item.type, inputs / "type"))
     machine = yellowiron.build(
         kind,
