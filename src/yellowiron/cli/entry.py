@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import sys
 
-from yellowiron.cli import building, library, machines, studio  # noqa: F401 - each adds its commands
+from yellowiron.cli import building, fleet, library, machines, studio  # noqa: F401 - each adds its commands
 from yellowiron.cli.application import app
 from yellowiron.model.errors import OutputError, YellowironError
 from yellowiron.report import terminal

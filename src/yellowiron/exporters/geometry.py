@@ -5,7 +5,7 @@ from __future__ import annotations
 from collections.abc import Iterator, Mapping
 from dataclasses import dataclass, field
 from pathlib import Path
-from typing import Literal
+from typing import Any, Literal
 
 import numpy as np
 from pxr import Gf, Tf, Usd, UsdGeom, UsdPhysics, UsdShade
@@ -34,7 +34,7 @@ class Collider:
     """A shape to touch, placed by `matrix` (4, 4; a proper rotation for the analytic kinds, along whose z cylinders and
     capsules lie). `size`: (radius, height) of these (a capsule's height without its caps), (radius,) of a sphere, the
     three edges of a box. A mesh's `approximation` is UsdPhysics' token. `friction` is the dynamic one, None: not said;
-    it `rules` over that of what it touches where its material says so.
+    it `rules` over that of what it touches where its material says so. `material` is that one's name.
     """
 
     name: str
@@ -45,6 +45,7 @@ class Collider:
     approximation: str = ""
     friction: float | None = None
     rules: bool = False
+    material: str = ""
 
 
 @dataclass(frozen=True, eq=False)
@@ -153,13 +154,15 @@ class _Reader:
 
     def _collider(self, prim: Usd.Prim, body: Usd.Prim) -> Collider | None:
         matrix, name = self._matrix(prim, body), _label(prim, body)
-        friction, rules = _friction(prim)
+        friction, rules, material = _friction(prim)
         if prim.IsA(UsdGeom.Mesh):
             token = "none"
             if prim.HasAPI(UsdPhysics.MeshCollisionAPI):
                 token = str(UsdPhysics.MeshCollisionAPI(prim).GetApproximationAttr().Get())
             mesh = self._mesh(prim)
-            return Collider(name, "mesh", matrix, (), mesh, token, friction, rules) if len(mesh.triangles) else None
+            made = Collider(name, "mesh", matrix, (), mesh, token, friction, rules, material)
+            return made if len(mesh.triangles) else None
+        said: dict[str, Any] = {"friction": friction, "rules": rules, "material": material}
         scale = np.linalg.norm(matrix[:3, :3], axis=0)
         proper = matrix.copy()
         proper[:3, :3] /= scale
@@ -167,10 +170,10 @@ class _Reader:
             proper[:3, 0] *= -1.0
         if prim.IsA(UsdGeom.Cube):
             edge = float(UsdGeom.Cube(prim).GetSizeAttr().Get())
-            return Collider(name, "box", proper, tuple((edge * scale).tolist()), friction=friction, rules=rules)
+            return Collider(name, "box", proper, tuple((edge * scale).tolist()), **said)
         if prim.IsA(UsdGeom.Sphere):
             radius = float(UsdGeom.Sphere(prim).GetRadiusAttr().Get()) * float(scale.max())
-            return Collider(name, "sphere", proper, (radius,), friction=friction, rules=rules)
+            return Collider(name, "sphere", proper, (radius,), **said)
         for kind, schema in (("cylinder", UsdGeom.Cylinder), ("capsule", UsdGeom.Capsule)):
             if prim.IsA(schema):
                 shape = schema(prim)
@@ -180,7 +183,7 @@ class _Reader:
                 radius = float(shape.GetRadiusAttr().Get()) * float(np.delete(scale, axis).max())
                 height = float(shape.GetHeightAttr().Get()) * float(scale[axis])
                 size = (radius, height)
-                return Collider(name, kind, turned, size, friction=friction, rules=rules)  # type: ignore[arg-type]
+                return Collider(name, kind, turned, size, **said)  # type: ignore[arg-type]
         return None
 
 
@@ -218,11 +221,12 @@ def _color(prim: Usd.Prim) -> Color:
     return triple(Gf.Vec3f(*np.array(colors).mean(axis=0).tolist())) if colors else _NEUTRAL
 
 
-def _friction(prim: Usd.Prim) -> tuple[float | None, bool]:
-    """The dynamic friction of a collider's material, None where it has none, and whether it rules."""
+def _friction(prim: Usd.Prim) -> tuple[float | None, bool, str]:
+    """The dynamic friction of a collider's material, None where it has none, whether it rules, and its name."""
     material, _ = UsdShade.MaterialBindingAPI(prim).ComputeBoundMaterial("physics")
     if not material or not material.GetPrim().HasAPI(UsdPhysics.MaterialAPI):
-        return None, False
+        return None, False, ""
     combine = material.GetPrim().GetAttribute("physxMaterial:frictionCombineMode")
     rules = bool(combine) and combine.Get() in ("min", "multiply")
-    return float(UsdPhysics.MaterialAPI(material.GetPrim()).GetDynamicFrictionAttr().Get()), rules
+    name = str(material.GetPrim().GetMetadata("displayName") or material.GetPrim().GetName())
+    return float(UsdPhysics.MaterialAPI(material.GetPrim()).GetDynamicFrictionAttr().Get()), rules, name

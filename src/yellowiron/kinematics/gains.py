@@ -8,7 +8,7 @@ every λ (Gershgorin's discs), so each drive can be given its share alone.
 from __future__ import annotations
 
 import math
-from collections.abc import Iterator, Sequence
+from collections.abc import Iterable, Iterator, Mapping, Sequence
 from dataclasses import dataclass, replace
 
 import numpy as np
@@ -45,12 +45,12 @@ _OWN, _OTHERS, _LOOSE = 13, 25, 27
 """Poses sampled: of a drive's own component, of each other one, and of drives outside of all loops."""
 _MOUNTED = 0.01
 """A root with less of the machine's mass than this is something that it is mounted on, and held."""
-_USUAL = 0.95
+USUAL = 0.95
 """A weight is that not passed in this share of the poses: near a dead point a short lever makes it ten times that."""
 
 
 @dataclass(frozen=True, eq=False)
-class _Seen:
+class Felt:
     """What drives feel over the poses. `free` (poses, n, n): mass matrices in the drives' coordinates, the root free;
     `moved` (n,): the mass each moves in half of them, root and others held, with the rated load; `force` (n, 2): the
     weight, N or N·m, that makes it go in its negative and its positive direction."""
@@ -59,6 +59,17 @@ class _Seen:
     free: Floats
     moved: Floats
     force: Floats
+
+
+@dataclass(frozen=True, eq=False)
+class Look:
+    """What is felt in one pose, as in `Felt`: of the drives `own` the mass moved and the weight, N or N·m, signed."""
+
+    pose: State
+    free: Floats
+    own: tuple[str, ...]
+    moved: tuple[float, ...]
+    weights: tuple[float, ...]
 
 
 def set_gains(
@@ -76,13 +87,26 @@ def set_gains(
 
     A finding KIN007 for a drive without force or speed, which gets no damping.
     """
-    findings = []
-    driven = tuple(name for name in chain.independent if joints[name].drive is not None)
+    driven = driven_by(chain, joints)
     if not driven:
         return ()
-    seen = _look(chain, grids, driven)
-    armatures = _armatures(seen, joints, ringed=ringed)
-    dampings = _dampings(seen.free + np.diag(armatures))
+    felt = felt_in(driven, looks(chain, poses_of(chain, grids, driven), driven))
+    return give_gains(chain, felt, joints, ringed=ringed)
+
+
+def driven_by(chain: ClosedChain, joints: Mapping[str, Joint]) -> tuple[str, ...]:
+    """The independent joints that have a drive."""
+    return tuple(name for name in chain.independent if joints[name].drive is not None)
+
+
+def give_gains(
+    chain: ClosedChain, felt: Felt, joints: dict[str, Joint], *, ringed: bool = False
+) -> tuple[Finding, ...]:
+    """`set_gains`, by what was felt already."""
+    findings = []
+    driven = felt.names
+    armatures = _armatures(felt, joints, ringed=ringed)
+    dampings = dampings_of(felt.free + np.diag(armatures))
     for number, name in enumerate(driven):
         joint, drive = joints[name], joints[name].drive
         assert drive is not None
@@ -98,7 +122,7 @@ def set_gains(
             made = position_gains(
                 drive,
                 float(dampings[number]),
-                float(seen.moved[number]),
+                float(felt.moved[number]),
                 unit="kg" if joint.type == "prismatic" else "kg·m²",
                 softest=held / (_SAGS * travel) if travel else 0.0,
                 armature=float(armatures[number]),
@@ -167,43 +191,58 @@ def _shown(mass: float, unit: str) -> str:
     return f"{1e-3 * mass:.4g} t" if unit == "kg" else f"{mass:.4g} {unit}"
 
 
-def _look(chain: ClosedChain, grids: Sequence[PoseGrid], driven: tuple[str, ...]) -> _Seen:
-    columns = [chain.independent.index(name) for name in driven]
-    load = rated_load(chain.mechanism)
-    free: list[Floats] = []
-    whole = sum(body.mass for body in chain.mechanism.bodies)
-    mounted = chain.mechanism.body(chain.mechanism.root).mass < _MOUNTED * whole
-    moved: dict[str, list[float]] = {name: [] for name in driven}
-    weights: dict[str, list[float]] = {name: [] for name in driven}
-
-    def look(pose: State, own: Sequence[str]) -> None:
-        try:
-            fixed, loose = chain.masses(pose)
-        except np.linalg.LinAlgError:  # a dead point
-            return
-        # What nothing drives gives way as it likes.
-        own_masses = np.linalg.inv(fixed if mounted else loose)[np.ix_(columns, columns)]
-        free.append(np.linalg.inv(own_masses))
-        for name in own:
-            number = driven.index(name)
-            more = carried(chain, pose, name, *load) if load is not None else 0.0
-            moved[name].append(float(fixed[columns[number], columns[number]]) + more)
-            weights[name].append(weight(chain, pose, name))
-
-    look(chain.drawn, driven)
+def poses_of(
+    chain: ClosedChain, grids: Sequence[PoseGrid], driven: tuple[str, ...]
+) -> Iterator[tuple[State, Sequence[str]]]:
+    """The poses that gains are found over, each with the drives whose masses and weights are looked at there."""
+    yield chain.drawn, driven
     for component, grid in zip(chain.components(), grids, strict=True):
         own = [name for name in grid.drivers if name in driven]
         others = [pose for other in grids if other is not grid for pose in _spread(other.states, _OTHERS)]
         for state in _spread(grid.states, _OWN) if others else grid.states:
             for pose in [chain.combined(state, component, other) for other in others] or [state]:
-                look(pose, own)
+                yield pose, own
     outside = [name for name in driven if all(name not in grid.drivers for grid in grids)]
     for pose in _outside(chain, outside):
-        look(pose, outside)
+        yield pose, outside
+
+
+def looks(chain: ClosedChain, poses: Iterable[tuple[State, Sequence[str]]], driven: tuple[str, ...]) -> Iterator[Look]:
+    """What is felt in poses; nothing in one that is a dead point."""
+    columns = [chain.independent.index(name) for name in driven]
+    load = rated_load(chain.mechanism)
+    whole = sum(body.mass for body in chain.mechanism.bodies)
+    mounted = chain.mechanism.body(chain.mechanism.root).mass < _MOUNTED * whole
+    for pose, own in poses:
+        try:
+            fixed, loose = chain.masses(pose)
+        except np.linalg.LinAlgError:  # a dead point
+            continue
+        # What nothing drives gives way as it likes.
+        own_masses = np.linalg.inv(fixed if mounted else loose)[np.ix_(columns, columns)]
+        moved, weights = [], []
+        for name in own:
+            column = columns[driven.index(name)]
+            more = carried(chain, pose, name, *load) if load is not None else 0.0
+            moved.append(float(fixed[column, column]) + more)
+            weights.append(weight(chain, pose, name))
+        yield Look(pose, np.linalg.inv(own_masses), tuple(own), tuple(moved), tuple(weights))
+
+
+def felt_in(driven: tuple[str, ...], seen: Iterable[Look]) -> Felt:
+    """What drives feel over poses."""
+    free: list[Floats] = []
+    moved: dict[str, list[float]] = {name: [] for name in driven}
+    weights: dict[str, list[float]] = {name: [] for name in driven}
+    for look in seen:
+        free.append(look.free)
+        for name, mass, force in zip(look.own, look.moved, look.weights, strict=True):
+            moved[name].append(mass)
+            weights[name].append(force)
     # What a push holds goes in the negative direction.
-    ways = [[np.quantile(np.maximum(way * np.array(weights[name]), 0.0), _USUAL) for way in (1, -1)] for name in driven]
+    ways = [[np.quantile(np.maximum(way * np.array(weights[name]), 0.0), USUAL) for way in (1, -1)] for name in driven]
     masses = [np.median(moved[name]) for name in driven]
-    return _Seen(driven, np.array(free), np.array(masses), np.array(ways))
+    return Felt(driven, np.array(free), np.array(masses), np.array(ways))
 
 
 def _outside(chain: ClosedChain, names: Sequence[str]) -> Iterator[State]:
@@ -215,18 +254,24 @@ def _outside(chain: ClosedChain, names: Sequence[str]) -> Iterator[State]:
         yield chain.reach(targets)[0]
 
 
-def _dampings(free: Floats) -> Floats:
+def dampings_of(free: Floats) -> Floats:
     """The damping of each drive (n,) by the mass matrices of all poses (poses, n, n), root free."""
+    return np.asarray(SHARE / STEP / loads_of(free).max(axis=0))
+
+
+def loads_of(free: Floats) -> Floats:
+    """How much of what a step bears a unit of each drive's damping takes in each pose (poses, n), 1/kg or 1/(kg·m²):
+    the largest of a drive bounds its damping."""
     inverse = np.linalg.inv(free)
     own = np.sqrt(np.einsum("pii->pi", inverse))
     coupled = np.abs(inverse) / own[:, :, None] / own[:, None, :]
-    return np.asarray(SHARE / STEP / (own**2 * coupled.sum(axis=2)).max(axis=0))
+    return np.asarray(own**2 * coupled.sum(axis=2))
 
 
-def _armatures(seen: _Seen, joints: dict[str, Joint], *, ringed: bool) -> Floats:
+def _armatures(seen: Felt, joints: dict[str, Joint], *, ringed: bool) -> Floats:
     """The inertia (n,) that drives need of their own: position drives for a damping by which no weight outruns them,
     velocity drives for the damping that they ask for."""
-    dampings = _dampings(seen.free)
+    dampings = dampings_of(seen.free)
     made = np.zeros(len(seen.names))
     for number, name in enumerate(seen.names):
         drive = joints[name].drive

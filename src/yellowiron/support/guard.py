@@ -73,7 +73,7 @@ def run_guarded(
             with os.fdopen(told, "wb", buffering=0):
                 call.write_bytes(pickle.dumps((target, args, memory_mb, str(answer), told)))
                 child = subprocess.Popen(
-                    [*isolated.interpreter(), isolated.__file__, str(_PACKAGE), _RUN, str(call), *_folders()],
+                    child_command(_RUN, str(call)),
                     stdin=subprocess.DEVNULL,
                     stdout=subprocess.DEVNULL,
                     stderr=subprocess.PIPE,
@@ -183,10 +183,11 @@ def _obituary(who: str, returncode: int, noise: bytes) -> str:
     return f"{who} ended with code {returncode} and no result{detail}"
 
 
-def _folders() -> list[str]:
-    """What a child may import from, behind its interpreter's own: the folder of this package, and those of packages
-    that bring plugins."""
-    return [str(_PACKAGE.parent), *plugins.folders()]
+def child_command(target: str, call: str) -> list[str]:
+    """The command of a child process that calls `module:function` with one text. It may import, behind what its
+    interpreter's installation has, from the folder of this package and from those of packages that bring plugins."""
+    folders = [str(_PACKAGE.parent), *plugins.folders()]
+    return [*isolated.interpreter(), isolated.__file__, str(_PACKAGE), target, call, *folders]
 
 
 def run_child(call: str) -> NoReturn:

@@ -28,7 +28,7 @@ from yellowiron.usd.layers.drives import INSTANCES, per_usd_unit, to_usd_unit
 from yellowiron.usd.layers.mujoco import MIMIC, MIMIC_NAMES
 from yellowiron.usd.layers.sensors import read_sensors
 from yellowiron.usd.planning.pin_links import KIND as PIN_LINK
-from yellowiron.usd.planning.plan import HULL, JOINTS, VISUALS
+from yellowiron.usd.planning.plan import HULL, HULL_SCALE, JOINTS, VISUALS
 
 _SUFFIXES = {".usd", ".usda", ".usdc", ".usdz"}
 _BUILD_HINT = "Give the machine file or the scene.usda that `yellowiron build` wrote."
@@ -206,7 +206,11 @@ class _Reader:
     def _hull(self, body: Usd.Prim, origin: Floats) -> Floats:
         points = body.GetChild(HULL).GetAttribute("yellowiron:points") if body.GetChild(HULL) else None
         stored = points.Get() if points else None
-        return np.zeros((0, 3)) if stored is None else np.array(stored, dtype=np.float64).reshape(-1, 3) + origin
+        if stored is None:
+            return np.zeros((0, 3))
+        scale = body.GetChild(HULL).GetAttribute(HULL_SCALE)
+        factors = np.array(scale.Get(), dtype=np.float64) if scale and scale.HasAuthoredValue() else np.ones(3)
+        return np.array(stored, dtype=np.float64).reshape(-1, 3) * factors + origin
 
     def _sites(self, body: Usd.Prim) -> Iterator[Site]:
         for prim in body.GetChildren():

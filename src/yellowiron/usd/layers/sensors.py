@@ -22,7 +22,7 @@ from yellowiron.model.sensor import Sensor
 from yellowiron.support.record import RECORD
 from yellowiron.support.vectors import triple
 from yellowiron.usd.authoring.metadata import describe_sensor, from_json, set_custom, to_json
-from yellowiron.usd.authoring.rotation import quaternion_of
+from yellowiron.usd.authoring.rotation import Quaternion, quaternion_of
 from yellowiron.usd.authoring.stage import (
     Types,
     apply_schemas,
@@ -76,11 +76,10 @@ def write_contact_reports(layer: Sdf.Layer, plan: Plan) -> None:
 
 
 def _write_framed(layer: Sdf.Layer, path: str, sensor: Sensor, origin: Floats) -> None:
-    axes = _axes(sensor)
     camera = sensor.type == "camera"
     spec = define(layer, path, "Camera" if camera else "Xform")
     set_display_name(spec, sensor.name)
-    set_placement(spec, np.asarray(sensor.position) - origin, quaternion_of(axes @ _CAMERA_AXES if camera else axes))
+    set_placement(spec, np.asarray(sensor.position) - origin, sensor_quaternion(sensor))
     set_custom(spec, describe_sensor(sensor))
     parameters = sensor.parameters
     if camera:
@@ -104,6 +103,12 @@ def _write_framed(layer: Sdf.Layer, path: str, sensor: Sensor, origin: Floats) -
         threshold = Gf.Vec2f(parameters["minimum"], parameters["maximum"])
         set_attribute(device, "threshold", Types.Float2, threshold)
         set_attribute(device, "radius", Types.Float, -1.0)
+
+
+def sensor_quaternion(sensor: Sensor) -> Quaternion:
+    """The rotation of a sensor's prim: a camera looks along its −Z, everything else along +X."""
+    axes = _axes(sensor)
+    return quaternion_of(axes @ _CAMERA_AXES if sensor.type == "camera" else axes)
 
 
 def _write_optics(spec: Sdf.PrimSpec, parameters: Mapping[str, float]) -> None:

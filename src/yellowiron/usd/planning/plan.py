@@ -25,6 +25,8 @@ from yellowiron.usd.planning.touching import POOLED, Pool, Touching, as_drawn, f
 GEOMETRY_FILE = "geometry.usdc"
 PROTOTYPES, HULLS, SOLIDS = "/Prototypes", "/Hulls", "/Colliders"
 VISUALS, COLLIDERS, HULL = "visuals", "colliders", "hull"
+HULL_SCALE = "yellowiron:scale"
+"""Of a body's hull, in a variant: factors along the machine's axes that its points are taken times."""
 MESH, PIECE = "mesh", "piece_"
 """Under a collider of several pieces: the part's own mesh, which does not collide, and the pieces, numbered from 1."""
 JOINTS, MATERIALS, ACTUATORS, BASE_JOINT = "joints", "materials", "actuators", "base_joint"
