@@ -25,7 +25,9 @@ from yellowiron.usd.authoring.rotation import principal_axes
 from yellowiron.usd.authoring.stage import Types, create_layer, declare_variants, over, set_attribute, set_placement
 from yellowiron.usd.layers.drives import INSTANCES, per_usd_unit, speed_limit, to_usd_unit
 from yellowiron.usd.layers.joints import usd_type
+from yellowiron.usd.layers.mujoco import armature
 from yellowiron.usd.layers.sensors import sensor_quaternion
+from yellowiron.usd.layers.servos import DAMPER, SERVO, write_gains
 from yellowiron.usd.planning.pin_links import KIND as PIN_LINK
 from yellowiron.usd.planning.plan import COLLIDERS, HULL, HULL_SCALE, MATERIALS, VISUALS
 from yellowiron.usd.read import find_machine, open_stage
@@ -49,7 +51,8 @@ class WheelPart:
 @dataclass(frozen=True)
 class MachinePrims:
     """Where what a variant changes stands in a machine's file: paths by name. `links`: a cut pin's links of its own,
-    as (side, body, link, weld). `order`: what the machine's own prim has for xformOps."""
+    as (side, body, link, weld). `servos`: joint → kind and path of the actuators that Newton drives it by. `order`:
+    what the machine's own prim has for xformOps."""
 
     root: str
     bodies: Mapping[str, str]
@@ -59,6 +62,7 @@ class MachinePrims:
     cameras: frozenset[str]
     wheels: Mapping[str, tuple[WheelPart, ...]]
     links: Mapping[str, tuple[tuple[int, str, str, str], ...]] = field(default_factory=dict)
+    servos: Mapping[str, tuple[tuple[str, str], ...]] = field(default_factory=dict)
 
 
 def machine_prims(path: str | Path, wheels: Mapping[str, tuple[Floats, float]]) -> MachinePrims:
@@ -68,6 +72,7 @@ def machine_prims(path: str | Path, wheels: Mapping[str, tuple[Floats, float]]) 
     prim = find_machine(stage, str(path))
     named: dict[str, dict[str, str]] = {"body": {}, "joint": {}, "sensor": {}}
     cameras, links, welds = set(), [], {}
+    servos: dict[str, list[tuple[str, str]]] = {}
     for each in Usd.PrimRange(prim):
         record = each.GetCustomDataByKey(RECORD) or {}
         kind = record.get("kind")
@@ -75,6 +80,8 @@ def machine_prims(path: str | Path, wheels: Mapping[str, tuple[Floats, float]]) 
             named[kind][str(record["name"])] = str(each.GetPath())
         if kind == "sensor" and each.IsA(UsdGeom.Camera):
             cameras.add(str(record["name"]))
+        if kind in (SERVO, DAMPER):
+            servos.setdefault(str(record["name"]), []).append((str(kind), str(each.GetPath())))
         if kind == PIN_LINK:
             links.append((str(each.GetPath()), str(record["name"])))
         if each.GetTypeName() == "PhysicsFixedJoint" and not record:
@@ -100,6 +107,7 @@ def machine_prims(path: str | Path, wheels: Mapping[str, tuple[Floats, float]]) 
     return MachinePrims(
         str(prim.GetPath()), named["body"], named["joint"], materials, named["sensor"], frozenset(cameras), parts,
         {name: tuple(own) for name, own in ends.items() if own},
+        {name: tuple(own) for name, own in servos.items()},
     )  # fmt: skip
 
 
@@ -150,7 +158,7 @@ def variant_layer(
         for before, after in zip(base.bodies, variant.bodies, strict=True):
             _write_body(layer, prims, before, after)
         for old, new in zip(base.joints, variant.joints, strict=True):
-            _write_joint(layer, old, new, variant, prims)
+            _write_joint(layer, old, new, base, variant, prims)
         for name, path in prims.materials.items():
             if name in variant.materials and variant.materials[name] != base.materials[name]:
                 spec, material = over(layer, _on(prims, path)), variant.materials[name]
@@ -204,7 +212,9 @@ def _write_inertia(layer: Sdf.Layer, path: str, old: Body, new: Body) -> None:
         set_attribute(over(layer, path), "physics:principalAxes", Types.Quatf, Gf.Quatf(Gf.Quatd(*axes)))
 
 
-def _write_joint(layer: Sdf.Layer, old: Joint, new: Joint, variant: Mechanism, prims: MachinePrims) -> None:
+def _write_joint(
+    layer: Sdf.Layer, old: Joint, new: Joint, base: Mechanism, variant: Mechanism, prims: MachinePrims
+) -> None:
     values: dict[str, Any] = {}
     path = prims.joints[new.name]
     if new.anchor != old.anchor:
@@ -221,7 +231,13 @@ def _write_joint(layer: Sdf.Layer, old: Joint, new: Joint, variant: Mechanism, p
     if new.drive is not None and old.drive is not None and not new.cut and not _same_drive(old.drive, new.drive):
         # Where a drive's numbers come from, the base says.
         values["drive"] = to_json(replace(new.drive, source=_SOURCE))
-        _write_drive(over(layer, _on(prims, path)), new, old, new.drive)
+        inertias = armature(old, base), armature(new, variant)
+        _write_drive(over(layer, _on(prims, path)), new, old, new.drive, inertias)
+        for kind, place in prims.servos.get(new.name, ()):
+            if new.drive.rated:
+                write_gains(over(layer, _on(prims, place)), kind, new.drive)
+            else:
+                over(layer, _on(prims, place)).SetInfo("active", False)
     if values:
         set_custom(over(layer, path), values)
 
@@ -253,8 +269,9 @@ def _write_anchor(layer: Sdf.Layer, joint: Joint, variant: Mechanism, prims: Mac
             set_attribute(spec, f"physics:localPos{side}", Types.Point3f, place)
 
 
-def _write_drive(spec: Sdf.PrimSpec, joint: Joint, old: Joint, drive: Drive) -> None:
-    """Gains, force, speed and armature, those that are others, in all the words that the base has for them."""
+def _write_drive(spec: Sdf.PrimSpec, joint: Joint, old: Joint, drive: Drive, inertias: tuple[float, float]) -> None:
+    """Gains, force, speed and armature, those that are others, in all the words that the base has for them.
+    `inertias`: what Newton has for the armature, before and after."""
     instance, factor = INSTANCES[joint.type], per_usd_unit(joint.type)
     before = old.drive
     assert before is not None
@@ -265,7 +282,8 @@ def _write_drive(spec: Sdf.PrimSpec, joint: Joint, old: Joint, drive: Drive) -> 
         ((f"{gains}:stiffness",), before.stiffness * factor, drive.stiffness * factor),
         ((f"{gains}:maxForce",), before.strongest, drive.strongest),
         ((*(f"{s}:maxJointVelocity" for s in physx), "newton:velocityLimit"), speed_limit(old), speed_limit(joint)),
-        ((*(f"{s}:armature" for s in physx), "newton:armature"), before.armature, drive.armature),
+        (tuple(f"{s}:armature" for s in physx), before.armature, drive.armature),
+        (("newton:armature",), *inertias),
     ]
     for names, one, other in said:
         if not _near(one, other) and math.isfinite(other):

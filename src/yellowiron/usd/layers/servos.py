@@ -32,25 +32,23 @@ def write_servos(layer: Sdf.Layer, plan: Plan) -> None:
             define(layer, home, "Scope")
         target = plan.joint_paths[joint.name]
         name = target.rsplit("/", 1)[-1]
-        servo = _actuator(layer, f"{home}/{name}", target, (drive.stiffness, -drive.stiffness, 0.0))
-        _limit(servo, drive)
-        damper = _actuator(layer, f"{home}/{name}_damping", target, (drive.damping, 0.0, -drive.damping))
-        for spec, kind in ((servo, SERVO), (damper, DAMPER)):
+        for kind, path in ((SERVO, f"{home}/{name}"), (DAMPER, f"{home}/{name}_damping")):
+            spec = define(layer, path, "MjcActuator")
+            set_targets(spec, "mjc:target", target)
+            set_attribute(spec, "mjc:biasType", Types.Token, "affine", uniform=True)
+            write_gains(spec, kind, drive)
             set_custom(spec, {"kind": kind, "name": joint.name})
 
 
-def _actuator(layer: Sdf.Layer, path: str, target: str, terms: tuple[float, float, float]) -> Sdf.PrimSpec:
-    """An actuator of gain and affine bias (by position, by speed): N/m and N·s/m, or per radian."""
-    gain, by_position, by_speed = terms
-    spec = define(layer, path, "MjcActuator")
-    set_targets(spec, "mjc:target", target)
-    set_attribute(spec, "mjc:biasType", Types.Token, "affine", uniform=True)
-    for name, values in (("gainPrm", (gain,)), ("biasPrm", (0.0, by_position, by_speed))):
+def write_gains(spec: Sdf.PrimSpec, kind: str, drive: Drive) -> None:
+    """The gains of a drive's servo or damper, N/m and N·s/m or per radian; of the servo the forces that the damper takes
+    at rated speed."""
+    if kind == SERVO:
+        terms = (drive.stiffness,), (0.0, -drive.stiffness, 0.0)
+        for end, value in (("min", -drive.damping * drive.speeds[0]), ("max", drive.damping * drive.speeds[1])):
+            set_attribute(spec, f"mjc:forceRange:{end}", Types.Double, float(value), uniform=True)
+    else:
+        terms = (drive.damping,), (0.0, 0.0, -drive.damping)
+    for name, values in zip(("gainPrm", "biasPrm"), terms, strict=True):
         padded = Vt.DoubleArray([*values, *[0.0] * (_TERMS - len(values))])
         set_attribute(spec, f"mjc:{name}", Types.DoubleArray, padded, uniform=True)
-    return spec
-
-
-def _limit(spec: Sdf.PrimSpec, drive: Drive) -> None:
-    for end, value in (("min", -drive.damping * drive.speeds[0]), ("max", drive.damping * drive.speeds[1])):
-        set_attribute(spec, f"mjc:forceRange:{end}", Types.Double, float(value), uniform=True)
