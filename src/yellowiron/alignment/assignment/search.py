@@ -14,7 +14,7 @@ from collections.abc import Callable, Iterator, Mapping
 from dataclasses import dataclass, field, replace
 
 from yellowiron.alignment.assignment.answer import MARGIN, Answer, is_whole, open_choices
-from yellowiron.alignment.assignment.cp_sat import JOINT_WEIGHT, MISSING_WEIGHT, TYPED, Effort, solve, without_islands
+from yellowiron.alignment.assignment.cp_sat import JOINT_WEIGHT, MISSING_WEIGHT, TYPED, Effort, playing, solve, without_islands
 from yellowiron.alignment.assignment.names import name_scores
 from yellowiron.alignment.assignment.one_sided import one_sided
 from yellowiron.alignment.assignment.sheet_weights import sheet_weights
@@ -155,7 +155,7 @@ class Search:
             for key, weight in more.items():
                 unary[key] = unary.get(key, 0) + weight
         barred = _barred(structure, resolved, observation.up)
-        least = _least(self.best, structure, resolved) if self.best is not None else None
+        least = _least(self.best, structure, resolved, unary) if self.best is not None else None
         solution = solve(structure, resolved, unary=unary, barred=barred, at_least=least, effort=self._effort)
         if solution is None:
             return
@@ -172,14 +172,17 @@ class Search:
             self.best = answer
 
 
-def _least(best: Answer, structure: Structure, template: Template) -> int:
+def _least(best: Answer, structure: Structure, template: Template, unary: Mapping[tuple[int, str], int]) -> int:
     """The objective below which no answer of a structure is better than the best: what is missing or idle whatever is
     chosen counts against it, and a machine found whole, which beats every other, has at least its joints."""
     missing = 0
+    rigid = [r for r in template.roles if r.rigid]
     for kind in TYPED:
         drawn = sum(1 for c in structure.clusters if c.kind == kind)
-        roles = [r for r in template.roles if r.rigid and r.kind == kind]
+        roles = [r for r in rigid if r.kind == kind]
         missing += max(0, sum(not r.optional for r in roles) - drawn) + max(0, drawn - len(roles))
+    others = sum(structure.clusters[c].kind not in TYPED for c in playing(structure, unary))
+    missing += max(0, sum(not r.optional for r in rigid if r.kind not in TYPED) - others)
     better = best.score + MISSING_WEIGHT * missing + 1
     joints = sum(1 for j in template.joints if j.type in ("revolute", "prismatic"))
     return better if is_whole(best) else min(better, JOINT_WEIGHT * joints)
