@@ -160,9 +160,7 @@ def playing(structure: Structure, unary: Mapping[tuple[int, str], int]) -> froze
 
 
 def _linked(structure: Structure) -> frozenset[int]:
-    return frozenset(
-        {i for h in structure.hinges for i in (h.a, h.b)} | {i for s in structure.slides for i in s[:2]}
-    )
+    return frozenset({i for h in structure.hinges for i in (h.a, h.b)} | {i for s in structure.slides for i in s[:2]})
 
 
 def without_islands(solution: Solution, template: Template) -> Solution:

@@ -21,7 +21,15 @@ from yellowiron.alignment.assignment.answer import (
     is_whole,
     open_choices,
 )
-from yellowiron.alignment.assignment.cp_sat import JOINT_WEIGHT, MISSING_WEIGHT, TYPED, Effort, playing, solve, without_islands
+from yellowiron.alignment.assignment.cp_sat import (
+    JOINT_WEIGHT,
+    MISSING_WEIGHT,
+    TYPED,
+    Effort,
+    playing,
+    solve,
+    without_islands,
+)
 from yellowiron.alignment.assignment.names import name_scores
 from yellowiron.alignment.assignment.one_sided import one_sided
 from yellowiron.alignment.assignment.sheet_weights import sheet_weights
