@@ -376,8 +376,8 @@ def _without_link(name: str) -> str:
 
 def name_scores(parts: tuple[Part, ...], template: Template, whole: Template | None = None) -> list[dict[str, float]]:
     """For every part: body → how well its names speak of it (`EXACT` where it bears the exact name of one of its
-    roles). Names of assemblies that hold all parts say nothing, nor does a word that most parts' own names have, or most
-    assemblies'; one that many parts have says less.
+    roles). Names of assemblies that hold all parts say nothing, nor does a word that most parts' own names have, or
+    most assemblies'; one that many parts have says less.
     `whole`: a template with further bodies, of which the template's nearest above is meant."""
     parts = described(parts)
     words = vocabulary(whole or template)

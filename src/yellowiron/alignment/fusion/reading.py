@@ -37,7 +37,7 @@ from yellowiron.model.rows import as_drawn
 from yellowiron.model.template import JointTemplate, Template
 
 GLANCE, FEW, LIKELY = SWEEPS // 2, 4, 4
-"""So many sweeps of few chains tell which variants are the likeliest, and so many of these are judged with all chains."""
+"""So many sweeps of few chains tell which variants are the likeliest, and so many of these are judged with more."""
 WARM, WARM_UP = 14, 16.0
 """So many sweeps, from this temperature, tell how good a variant is beside another, from whose labels they begin; whole
 annealings found no more than 5 on 1700 beyond, and are for those that could as well be the one."""
@@ -289,7 +289,7 @@ def _judged(best: _Best, evidence: Evidence) -> dict[int, Judged]:
         vote = best.votes[k][body]
         words = _words(body, margin, bodies[other] if other < none else None, vote)
         # What a mesh is called is true of no more than two of three of its solids, and what carries a part is not it.
-        own = not alone and k not in evidence.shared | evidence.borne or "said" in vote
+        own = (not alone and k not in evidence.shared | evidence.borne) or "said" in vote
         grounded = own and not doubted and _grounded(body, best.votes[k], named(piece, evidence.scores), evidence.trust)
         for i in piece.members:
             found[i] = Judged(body, margin, bodies[other] if other < none else None, words, grounded)
