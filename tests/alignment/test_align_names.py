@@ -127,6 +127,8 @@ def test_what_most_assemblies_are_called_tells_none_of_them(digger: Template) ->
     scores = name_scores(tuple(part("Cube", group) for group in groups), digger)
     assert scores[:4] == [{}] * 4
     assert max(scores[4], key=lambda b: scores[4][b]) == "boom"
+    tracks = ("Bottom", "Belt", "BeltLayer1", "BeltLayer004", "Roller")
+    assert all("undercarriage" in of for of in name_scores(tuple(part("Cube", group) for group in tracks[:4]), digger))
     told = name_scores(tuple(part("Cube", group) for group in ("digger", "boom", "stick", "chassis", "cab")), digger)
     assert max(told[0], key=lambda b: told[0][b]) == "bucket"
 

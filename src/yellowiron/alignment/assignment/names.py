@@ -290,10 +290,12 @@ def _telling(names: Sequence[str], words: Vocabulary) -> dict[str, float]:
 
 
 def _idle(assemblies: Collection[str], words: Vocabulary) -> frozenset[str]:
-    """The concepts that most assemblies are called by: those of one arm are fewer than those of all of a machine."""
-    said = {tuple(tokens(name)) or name: concepts(name, words) for name in assemblies}
-    counts = Counter(concept for found in said.values() for concept in found)
-    return frozenset(c for c, n in counts.items() if len(said) >= FEW and n > IDLE * len(said)) - _PLACES
+    """What a word says that most assemblies have in their names, all of a machine's: different words for one body are
+    no such."""
+    said = {frozenset(tokens(name)) for name in assemblies} - {frozenset()}
+    counts = Counter(word for name in said for word in name)
+    idle = sorted(word for word, n in counts.items() if len(said) >= FEW and n > IDLE * len(said))
+    return frozenset(c for word in idle for c in concepts(word, words)) - _PLACES
 
 
 def unnamed(names: Iterable[str]) -> frozenset[str]:
