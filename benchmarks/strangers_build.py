@@ -176,10 +176,12 @@ BUILDERS: dict[str, Callable[[Job], None]] = {
     "gaia_excavator": in_nodes(picked(*DIGGER)),
     "gaia_roller": in_nodes(picked(*ROLLER)),
     "gaia_wheel_loader": in_nodes(picked(*LOADER)),
+    "greetingbear_work_equipment": one,
     "haibingwang_simple_excavator": packed,
     "hiepnm_excavator": one,
     "icmantis_excavator": in_nodes(prefab),
     "ix35e_excavator": turned(summed),
+    "jamesthreadgold_excavator": one,
     "johnweez_komatsu": one,
     "johnweez_v2_simple": one,
     "jommsy_mini_excavator": turned(mjcf),
@@ -189,7 +191,10 @@ BUILDERS: dict[str, Callable[[Job], None]] = {
     "kennyvilella_excavator": in_nodes(mjcf),
     "l580_wheel_loader": turned(xacro),
     "leadcoder_excavator": in_nodes(templates),
+    "mckibbenc_forklift": one,
     "mini_excavator": many,
+    "mrizalr_telehandler": one,
+    "nattthan_dozer": one,
     "natutech_excavator": in_blender(MERGED),
     "newton_excavator": turned(urdf),
     "niklaslidz_wheel_loader": turned(urdf),
@@ -208,6 +213,7 @@ BUILDERS: dict[str, Callable[[Job], None]] = {
     "valkoja_low_poly_full": in_blender(OPENED, "full"),
     "valkoja_low_poly_half": in_blender(OPENED, "half"),
     "wajueji_excavator": one,
+    "zszach23_forklift": one,
 }
 
 

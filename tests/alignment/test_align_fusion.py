@@ -19,11 +19,11 @@ from yellowiron.alignment import align
 from yellowiron.alignment.assignment.answer import Answer
 from yellowiron.alignment.features.solids import size_of, solids_of
 from yellowiron.alignment.fusion.annealing import Annealing, against, labelled, leads
-from yellowiron.alignment.fusion.bonds import ENOUGH, Bond, _together, _welded, out_of_line
+from yellowiron.alignment.fusion.bonds import ENOUGH, Bond, _kin, _together, _welded, out_of_line
 from yellowiron.alignment.fusion.judge import field_of, score_of
 from yellowiron.alignment.fusion.pieces import Piece, leading
 from yellowiron.alignment.fusion.played import beside_lost_arms
-from yellowiron.alignment.fusion.reading import CONTRARY
+from yellowiron.alignment.fusion.reading import CONTRARY, _one_name
 from yellowiron.alignment.fusion.stance import Stance, stance_of
 from yellowiron.alignment.fusion.votes import LENT, borrowed
 from yellowiron.alignment.fusion.weights import weights
@@ -227,6 +227,35 @@ def test_what_is_called_the_left_one_may_be_the_right_one() -> None:
     assert left == {"front_wheel_l": 1.0, "front_wheel_r": LENT}
     assert right == {"front_wheel_r": 1.0, "front_wheel_l": LENT}
     assert bucket == said[2]
+
+
+def _in_assemblies(*rows: tuple[str, float, float]) -> tuple[Any, list[Any]]:
+    """Cubes of 1 m in assemblies, from `low` on along x: an observation and its pieces."""
+    parts = [SimpleNamespace(part=SimpleNamespace(path=("all", name))) for name, _, _ in rows]
+    pieces = [
+        SimpleNamespace(
+            members=frozenset({k}), low=np.array([low, 0.0, 0.0]), high=np.array([high, 1.0, 1.0]), area=1.0
+        )
+        for k, (_, low, high) in enumerate(rows)
+    ]
+    return SimpleNamespace(solids=parts), pieces
+
+
+@pytest.mark.parametrize(("end", "bound"), [(5.0, True), (12.0, False)])
+def test_an_assembly_that_reaches_all_over_the_machine_binds_nothing(end: float, bound: bool) -> None:
+    """Its outside is no body, though few pieces are in it; an arm's assembly is."""
+    rest = [(f"rest {k}", float(k), k + 1.0) for k in range(1, 12)]
+    observation, pieces = _in_assemblies(("group", 0.0, 1.0), ("group", end - 1.0, end), *rest)
+    assert ((0, 1) in _kin(observation, pieces)) == bound
+
+
+@pytest.mark.parametrize(
+    ("names", "alone"), [(("bucket", "bucket", ""), True), (("bucket", "boom", ""), False), (("bucket", "", ""), False)]
+)
+def test_one_name_for_most_of_a_machine_grounds_nothing(names: tuple[str, ...], alone: bool) -> None:
+    pieces = [SimpleNamespace(members=frozenset({k}), area=1.0) for k in range(len(names))]
+    scores = [{name: 1.0} if name else {} for name in names]
+    assert _one_name(cast(Any, SimpleNamespace(pieces=pieces, scores=scores, surface=3.0))) == alone
 
 
 @pytest.mark.parametrize(("surfaces", "told"), [((5.0, 1.0, 4.0), True), ((5.0, 4.0, 1.0), False)])

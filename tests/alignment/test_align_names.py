@@ -102,6 +102,37 @@ def test_a_template_says_what_its_bodies_are_called(digger: Template, name: str,
     assert concepts(name, vocabulary(digger)) == said
 
 
+@pytest.mark.parametrize(
+    ("kind", "name", "said"),
+    [
+        ("forklift", "forklift truck.007", set()),
+        ("forklift", "Forklift", set()),
+        ("forklift", "Gabelstapler", set()),
+        ("forklift", "Forklift_Fork", {"carriage"}),
+        ("telehandler", "Forklift", {"carriage", "lift"}),
+        ("excavator", "挖掘机动臂", {"boom"}),
+        ("excavator", "Excavator_Arm", {"arm"}),
+        ("excavator", "Baggerstiel", {"arm"}),
+        ("wheel_loader", "wheelLoader", set()),
+        ("wheel_loader", "loader arm", {"boom"}),
+    ],
+)
+def test_what_the_machine_is_called_tells_no_part(kind: str, name: str, said: set[str]) -> None:
+    assert concepts(name, vocabulary(load_template(kind))) == said
+
+
+def test_what_most_assemblies_are_called_tells_none_of_them(digger: Template) -> None:
+    """Assemblies of a `digger` that is all of the machine; of a digger beside a boom and an arm it is the bucket."""
+    groups = ("digger_inside", "digger_outside", "digger_shell", "digger_rest", "digger_boom")
+    scores = name_scores(tuple(part("Cube", group) for group in groups), digger)
+    assert scores[:4] == [{}] * 4
+    assert max(scores[4], key=lambda b: scores[4][b]) == "boom"
+    tracks = ("Bottom", "Belt", "BeltLayer1", "BeltLayer004", "Roller")
+    assert all("undercarriage" in of for of in name_scores(tuple(part("Cube", group) for group in tracks[:4]), digger))
+    told = name_scores(tuple(part("Cube", group) for group in ("digger", "boom", "stick", "chassis", "cab")), digger)
+    assert max(told[0], key=lambda b: told[0][b]) == "bucket"
+
+
 def test_role_names_are_words(template: Template) -> None:
     """A template without words.json: its own role names, and the words of any machine."""
     bare = vocabulary(template.__class__("crane", "", "mast", template.roles[1:3], ()))

@@ -10,7 +10,7 @@ import pytest
 from kit.cadfiles import fbx as cad_fbx
 from kit.machines.solids import box
 from yellowiron.cad import read_cad
-from yellowiron.cad.readers.meshes.fbx_names import legible
+from yellowiron.cad.readers.meshes.fbx_mended import legible
 
 NAMES = {b"AAAA": "动臂".encode("gbk"), b"BBBBBB": "挖掘机".encode("gbk")}
 """What a file that we can write says → what is said in its place, as many bytes long."""

@@ -21,6 +21,8 @@ UNDECIDED = "undecided"
 
 VAGUE = "?"
 """What those of a template's words begin with that speak only where nothing else in a name does."""
+ITSELF = "!"
+"""Under which a template's words have what machines of the type are called, which tells no part of one."""
 
 
 @dataclass(frozen=True)

@@ -7,7 +7,8 @@ local-polytope form (the z that share an x sum to at most that x) the relaxation
 from __future__ import annotations
 
 import itertools
-from collections.abc import Collection, Mapping
+from collections import Counter
+from collections.abc import Collection, Iterable, Mapping
 from dataclasses import dataclass, field, replace
 from typing import Any
 
@@ -97,9 +98,11 @@ def solve(
     if effort.spent and at_least is not None:
         return None
     unary = unary or {}
+    if at_least is not None and at_most(structure, template, unary) < at_least:
+        return None
     program = _Program(cp_model.CpModel())
-    linked = {i for h in structure.hinges for i in (h.a, h.b)} | {i for s in structure.slides for i in s[:2]}
-    _add_bodies(program, structure, template, linked | {c for (c, _), weight in unary.items() if weight > 0})
+    linked = _linked(structure)
+    _add_bodies(program, structure, template, playing(structure, unary))
     for joint in template.joints:
         _add_joint(program, joint, structure, template, barred)
     _add_one_joint_each(program)
@@ -127,6 +130,37 @@ def solve(
     if at_least is not None:
         return None
     return Solution({}, {}, {}, -MISSING_WEIGHT * sum(r.rigid for r in template.roles), 0, False)
+
+
+def at_most(structure: Structure, template: Template, unary: Mapping[tuple[int, str], int]) -> int:
+    """What no assignment's objective is more than: every hinge and slide a joint of bodies of the same kinds as its
+    clusters', every cluster what most speaks for. Most programs of a machine whose contacts tell little end here."""
+
+    def pair(kinds: Iterable[str]) -> tuple[str, ...]:
+        return tuple(sorted(kind if kind in TYPED else "" for kind in kinds))
+
+    kind_of = {r.name: r.kind for r in template.roles if r.rigid}
+    drawn = Counter(("pivot", pair(structure.clusters[c].kind for c in (h.a, h.b))) for h in structure.hinges)
+    drawn.update(("slide", pair(structure.clusters[c].kind for c in s[:2])) for s in structure.slides)
+    wanted = Counter(
+        ("slide" if joint.type == "prismatic" else "pivot", pair(kind_of[str(body)] for body in ends))
+        for joint in template.joints
+        for ends in [template.bodies_of(joint)]
+        if joint.type in ("revolute", "spherical", "prismatic") and set(ends) <= kind_of.keys()
+    )
+    most: dict[int, int] = {}
+    for (cluster, _), weight in unary.items():
+        most[cluster] = max(most.get(cluster, 0), weight)
+    return JOINT_WEIGHT * (drawn & wanted).total() + sum(most.values()) + len(_linked(structure))
+
+
+def playing(structure: Structure, unary: Mapping[tuple[int, str], int]) -> frozenset[int]:
+    """The clusters that can play a body at all: what is on a joint, or what something speaks for."""
+    return _linked(structure) | {c for (c, _), weight in unary.items() if weight > 0}
+
+
+def _linked(structure: Structure) -> frozenset[int]:
+    return frozenset({i for h in structure.hinges for i in (h.a, h.b)} | {i for s in structure.slides for i in s[:2]})
 
 
 def without_islands(solution: Solution, template: Template) -> Solution:

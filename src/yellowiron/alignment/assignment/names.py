@@ -19,7 +19,7 @@ from rapidfuzz.distance import DamerauLevenshtein
 
 from yellowiron.model.assembly import Part
 from yellowiron.model.specification import fold
-from yellowiron.model.template import VAGUE, Role, Template
+from yellowiron.model.template import ITSELF, VAGUE, Role, Template
 from yellowiron.support.caching.remembered import remembered
 
 ABOVE = 0.55
@@ -34,6 +34,8 @@ SOME = 8
 COMMON, IDLE = 0.3, 0.6
 """A word that more than a share of `COMMON` of at least `SOME` different names has counts less, one that more than
 `IDLE` have nothing: it tells no part from another."""
+FEW = 4
+"""Of so many different names of assemblies, a word that more than `IDLE` have says nothing."""
 VAGUE_SHARE = 0.5
 """A vague word of less than this share of a name's words says nothing: an upper holder holds anything."""
 ALIKE = 0.79
@@ -98,13 +100,15 @@ def vocabulary(template: Template) -> Vocabulary:
     own = {t: {"en": (t,)} for t in sorted(parts)}
     for table in (template.words, own, _common()):
         for key, entry in table.items():
+            plain = key.removeprefix(VAGUE).removeprefix(ITSELF)
             for word in (w for words in entry.values() for w in words):
                 if _SCRIPTS.search(word):
-                    scripts.setdefault(unicodedata.normalize("NFKC", word).casefold(), frozenset(key.split()))
+                    meaning = key.removeprefix(ITSELF).split()
+                    scripts.setdefault(unicodedata.normalize("NFKC", word).casefold(), frozenset(meaning))
                     continue
                 for spelled in (word, _spelled_out(word)):
                     meant = vague if key.startswith(VAGUE) else phrases
-                    meant.setdefault(tuple(tokens(spelled)), frozenset(key.removeprefix(VAGUE).split()))
+                    meant.setdefault(tuple(tokens(spelled)), frozenset(plain.split()))
     return Vocabulary(phrases, scripts, {words: said for words, said in vague.items() if words not in phrases})
 
 
@@ -147,8 +151,10 @@ def _concepts(text: str, words: Vocabulary) -> frozenset[str]:
         for start in range(len(said) - size + 1):
             if any(used[start : start + size]):
                 continue
-            meant = _meaning(tuple(said[start : start + size]), words)
-            if meant:
+            run = tuple(said[start : start + size])
+            meant = _meaning(run, words)
+            # What the machine itself is called means nothing of a part, but is taken: no fork is lifted in a forklift.
+            if meant or run in words.phrases:
                 found |= meant
                 used[start : start + size] = [True] * size
     if found - _PLACES:
@@ -176,10 +182,10 @@ def _meaning(said: tuple[str, ...], words: Vocabulary) -> frozenset[str]:
     """What a word, or some in a row, mean: as they stand, as a plural, joined (`Löffelstiel`), or with typos."""
     if said in words.known:
         return words.known[said]
-    found = words.phrases.get(said) or words.phrases.get((*said[:-1], said[-1].removesuffix("s")))
-    if not found and len(said) == 1:
+    found = words.phrases.get(said, words.phrases.get((*said[:-1], said[-1].removesuffix("s"))))
+    if found is None and len(said) == 1:
         found = _joined(said[0], words)
-    if not found:
+    if found is None:
         best = ALIKE
         for phrase, meant in words.phrases.items():
             if len(phrase) == len(said):
@@ -283,6 +289,15 @@ def _telling(names: Sequence[str], words: Vocabulary) -> dict[str, float]:
     return {concept: max(0.0, (IDLE - share) / (IDLE - COMMON)) for concept, share in shares.items()}
 
 
+def _idle(assemblies: Collection[str], words: Vocabulary) -> frozenset[str]:
+    """What a word says that most assemblies have in their names, all of a machine's: different words for one body are
+    no such."""
+    said = {frozenset(tokens(name)) for name in assemblies} - {frozenset()}
+    counts = Counter(word for name in said for word in name)
+    idle = sorted(word for word, n in counts.items() if len(said) >= FEW and n > IDLE * len(said))
+    return frozenset(c for word in idle for c in concepts(word, words)) - _PLACES
+
+
 def unnamed(names: Iterable[str]) -> frozenset[str]:
     """Those of a model's names that its modelling tool gave, which say nothing: `Cube.002`, `pCylinder12`, `Solid 3`,
     `polySurface7`, `Mesh_0_lambert1`. What could be a part of a machine as well (a cylinder, a body) is one only beside
@@ -363,8 +378,8 @@ def _without_link(name: str) -> str:
 
 def name_scores(parts: tuple[Part, ...], template: Template, whole: Template | None = None) -> list[dict[str, float]]:
     """For every part: body → how well its names speak of it (`EXACT` where it bears the exact name of one of its
-    roles). Names of assemblies that hold all parts say nothing, nor does a word that most parts' own names have; one
-    that many have says less.
+    roles). Names of assemblies that hold all parts say nothing, nor does a word that most parts' own names have, or
+    most assemblies'; one that many parts have says less.
     `whole`: a template with further bodies, of which the template's nearest above is meant."""
     parts = described(parts)
     words = vocabulary(whole or template)
@@ -375,6 +390,7 @@ def name_scores(parts: tuple[Part, ...], template: Template, whole: Template | N
     silent = unnamed(n for p in parts for n in (p.name, *p.path))
     telling = _telling([p.name for p in parts], words)
     own = _owned(parts)
+    idle = _idle({n for p in parts for n in p.path[shared:]} - silent, words)
     bodies: dict[str, list[frozenset[str]]] = {}
     for wanted_body, wanted in _wanted(template, whole or template):
         bodies.setdefault(wanted_body, []).append(wanted)
@@ -384,7 +400,7 @@ def name_scores(parts: tuple[Part, ...], template: Template, whole: Template | N
         names = ("" if name in silent else name for name in (part.name, *above))
         said = spoken(names, words)
         # What an assembly is called counts as it stands: all that is in it may well be most of the machine.
-        said = {c: w * telling.get(c, 1.0) if w == 1.0 else w for c, w in said.items()}
+        said = {c: w * telling.get(c, 1.0) if w == 1.0 else w for c, w in said.items() if w == 1.0 or c not in idle}
         said = {c: w for c, w in said.items() if w > 0.0}
         found = {b: s for b, wanted in bodies.items() if (s := max(likeness(said, w) for w in wanted)) > CLEAR}
         named = exact_role(part, roles)

@@ -31,7 +31,9 @@ ENOUGH = 8.0
 MOST = 0.6
 """A cluster of more than this share of the machine's surface says nothing of what belongs together."""
 SMALL = 0.34
-"""An assembly of more than this share of the pieces says nothing."""
+"""An assembly of more than this share of the pieces says nothing …"""
+ALL_OVER = 0.9
+"""… nor one that reaches over this share of the machine's length, width and height: it is no body."""
 
 
 @dataclass(frozen=True)
@@ -228,7 +230,15 @@ def _kin(observation: Observation, pieces: Sequence[Piece]) -> dict[tuple[int, i
             path = observation.solids[i].part.path
             if path:
                 groups.setdefault(path, set()).add(k)
-    return _together(groups.values(), max(2, SMALL * len(pieces)))
+    low, high = np.array([p.low for p in pieces]), np.array([p.high for p in pieces])
+    whole = np.ptp([*low, *high], axis=0)
+
+    def all_over(group: set[int]) -> bool:
+        chosen = sorted(group)
+        return bool((high[chosen].max(axis=0) - low[chosen].min(axis=0) > ALL_OVER * whole).all())
+
+    small = [group for group in groups.values() if not all_over(group)]
+    return _together(small, max(2, SMALL * len(pieces)))
 
 
 def _gaps(observation: Observation, pieces: Sequence[Piece]) -> dict[tuple[int, int], float]:

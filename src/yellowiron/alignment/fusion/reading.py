@@ -25,6 +25,7 @@ from yellowiron.alignment.fusion.votes import (
     CLEARLY,
     Features,
     Votes,
+    clearly_named,
     joints_apart,
     named,
 )
@@ -36,9 +37,10 @@ from yellowiron.model.rows import as_drawn
 from yellowiron.model.template import JointTemplate, Template
 
 GLANCE, FEW, LIKELY = SWEEPS // 2, 4, 4
-"""So many sweeps of few chains tell which variants are the likeliest, and so many of these are judged with all."""
+"""So many sweeps of few chains tell which variants are the likeliest, and so many of these are judged with more."""
 WARM, WARM_UP = 14, 16.0
-"""So many sweeps, from this temperature, tell how good a variant is beside another, from whose labels they begin."""
+"""So many sweeps, from this temperature, tell how good a variant is beside another, from whose labels they begin; whole
+annealings found no more than 5 on 1700 beyond, and are for those that could as well be the one."""
 MANY = 32
 """So many chains settle the variant that was chosen."""
 NEARLY = 2
@@ -134,9 +136,11 @@ def fused(
     ahead = first.score - max(behind, default=-np.inf)
     others = [tried(*machine, evidence, WARM, FEW, first) for machine in machines[1:]]
     glanced = sorted((first, *others), key=lambda b: -b.score)
-    likely = [tried(b.choices, b.template, evidence) for b in glanced[:LIKELY]]
+    likely = [tried(b.choices, b.template, evidence, WARM, CHAINS, b) for b in glanced[:LIKELY]]
     bare = [(b, as_drawn(b.template, b.played)) for b in likely]
-    likely += [tried(b.choices, drawn, evidence) for b, drawn in bare if drawn is not b.template]
+    likely += [tried(b.choices, drawn, evidence, WARM, CHAINS, b) for b, drawn in bare if drawn is not b.template]
+    reached = max(b.score for b in likely) - AS_GOOD
+    likely = [b if b.score < reached else tried(b.choices, b.template, evidence) for b in likely]
     best = max(likely, key=lambda b: b.score)
     best = tried(best.choices, best.template, evidence, chains=MANY)
     if more := _between_found(best, evidence):
@@ -267,6 +271,7 @@ def _judged(best: _Best, evidence: Evidence) -> dict[int, Judged]:
     lead_all, second_all = leads(field, labels)
     unsure = beside_lost_arms(best.template, played)
     contrary = against(best.field, best.labels, _told([best.votes[k] for k in chief], bodies))
+    alone = _one_name(evidence)
     found: dict[int, Judged] = {}
     for k, piece in enumerate(pieces):
         if labels[k] == none:
@@ -284,7 +289,7 @@ def _judged(best: _Best, evidence: Evidence) -> dict[int, Judged]:
         vote = best.votes[k][body]
         words = _words(body, margin, bodies[other] if other < none else None, vote)
         # What a mesh is called is true of no more than two of three of its solids, and what carries a part is not it.
-        own = k not in evidence.shared | evidence.borne or "said" in vote
+        own = (not alone and k not in evidence.shared | evidence.borne) or "said" in vote
         grounded = own and not doubted and _grounded(body, best.votes[k], named(piece, evidence.scores), evidence.trust)
         for i in piece.members:
             found[i] = Judged(body, margin, bodies[other] if other < none else None, words, grounded)
@@ -310,6 +315,13 @@ def _with_twins(label_of: Mapping[int, int], best: _Best, bonds: Sequence[Bond])
 def _told(votes: Sequence[Mapping[str, Features]], bodies: Sequence[str]) -> Floats:
     """(pieces, bodies) what names say."""
     return np.array([[weights()["name"] * mine.get(b, {}).get("name", 0.0) for b in bodies] for mine in votes])
+
+
+def _one_name(evidence: Evidence) -> bool:
+    """Whether names speak of one body alone, and call most of the machine so: nothing beside it can contradict them."""
+    said = clearly_named(evidence.pieces, evidence.scores)
+    most = sum(evidence.pieces[k].area for k in sorted(said)) > 0.5 * evidence.surface
+    return most and len(said) > 1 and len(set(said.values())) == 1
 
 
 def _grounded(body: str, votes: Mapping[str, Features], said: Mapping[str, float], trust: float) -> bool:

@@ -13,6 +13,7 @@ from yellowiron.alignment.assignment.sides import twin_role
 from yellowiron.alignment.fusion.pieces import Piece
 from yellowiron.alignment.fusion.stance import Stance
 from yellowiron.model.template import Template, Usual
+from yellowiron.support.caching.remembered import remembered
 
 Features = Mapping[str, float]
 """What speaks for something, by name; what each counts is in `weights`."""
@@ -94,7 +95,7 @@ def votes_of(
             found = {"name": worth * name, "contacts": contact, "said": float(body in told), **shape}
             if body in template.usual:
                 depth = apart.get((template.root, body), 0)
-                found |= _unusual(piece, template.usual[body], stance.drawn * piece.area / total, stance, depth)
+                found |= _unusual(stance, piece, template.usual[body], stance.drawn * piece.area / total, depth)
             if kind == piece.kind == "wheel" and body in odd:
                 found["odd"] = odd[body](piece.area)
             mine[body] = {key: value for key, value in found.items() if value}
@@ -248,7 +249,8 @@ def _solved(answer: Answer) -> dict[int, dict[str, float]]:
     return found
 
 
-def _unusual(piece: Piece, usual: Usual, share: float, stance: Stance, depth: int) -> Features:
+@remembered
+def _unusual(stance: Stance, piece: Piece, usual: Usual, share: float, depth: int) -> Features:
     """What speaks against a piece being of a body, in nats: how far its surface is from where the body usually is, and
     how much longer and larger it is than the whole body usually is."""
     low, high = np.array(usual.low), np.array(usual.high)

@@ -41,8 +41,8 @@ def write_servos(layer: Sdf.Layer, plan: Plan) -> None:
 
 
 def write_gains(spec: Sdf.PrimSpec, kind: str, drive: Drive) -> None:
-    """The gains of a drive's servo or damper, N/m and N·s/m or per radian; of the servo the forces that the damper takes
-    at rated speed."""
+    """The gains of a drive's servo or damper, N/m and N·s/m or per radian; of the servo the forces that its damper
+    takes at rated speed."""
     if kind == SERVO:
         terms = (drive.stiffness,), (0.0, -drive.stiffness, 0.0)
         for end, value in (("min", -drive.damping * drive.speeds[0]), ("max", drive.damping * drive.speeds[1])):

@@ -22,7 +22,7 @@ from yellowiron.cad.appearance.textures import Pictures, finish
 from yellowiron.cad.mesh import assembly
 from yellowiron.cad.mesh.assembly import Occurrence
 from yellowiron.cad.naming import decode_name, encoding_remarks, is_generic
-from yellowiron.cad.readers.meshes.fbx_names import legible
+from yellowiron.cad.readers.meshes.fbx_mended import legible, without_edges
 from yellowiron.model.assembly import Assembly, Node
 from yellowiron.model.errors import CadError
 from yellowiron.model.geometry import Color, Floats, Mesh
@@ -91,12 +91,13 @@ def read_fbx(path: str) -> Assembly:
 
     drawn = Path(path).read_bytes()
     data, titles, encoding = legible(drawn)
+    data = without_edges(data)
     up, unit = _setting(data, b"UpAxis"), _setting(data, b"UnitScaleFactor")
     frame = _FROM_Y_UP["Z_UP"] if up == 2.0 else np.eye(4)
     bones = {(binary or text).decode("utf-8", "replace") for binary, text in _BONE.findall(data)}
     with TemporaryDirectory(prefix="yellowiron-") as folder:
         spelled = path
-        if data is not drawn:
+        if data != drawn:
             spelled = str(Path(folder) / "model.fbx")
             Path(spelled).write_bytes(data)
         flags = assimp_py.Process_GlobalScale
