@@ -13,8 +13,8 @@ from hypothesis import strategies as st
 
 from kit.machines import small_machine
 from yellowiron.model.geometry import Mesh
-from yellowiron.support import convex
 from yellowiron.support.caching.disk import VARIABLE, cache_folder
+from yellowiron.support.convex import pieces as cutting
 from yellowiron.support.convex.pieces import MOST, convex_pieces, hull
 
 
@@ -142,7 +142,7 @@ def test_pieces_are_kept_by_content(cache: Path, monkeypatch: pytest.MonkeyPatch
     box = as_mesh(small_machine.open_box(0.9, 1.2, 0.4, 0.02))
     made = content(convex_pieces(box))
     assert len(list(cache.rglob("*.kept"))) == 1
-    monkeypatch.setattr(convex, "_cut", never)
+    monkeypatch.setattr(cutting, "_cut", never)
     assert content(convex_pieces(Mesh(box.points.copy(), box.triangles.copy()))) == made
     with pytest.raises(AssertionError, match="cut again"):
         convex_pieces(as_mesh(small_machine.open_box(0.9, 1.2, 0.4, 0.03)))

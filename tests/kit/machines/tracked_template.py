@@ -28,7 +28,7 @@ def tracked_documents() -> dict[str, Any]:
             f"carrier_roller_{s}[*]": {**shoes, "kind": "carrier"},
             f"{row}[*]": {**shoes, "kind": "shoe"},
             f"track_wheel_{s}[*]": {
-                "rigid body": "Y", "when": {"tracks": "belt"}, "hidden": {"row": row, "at": [0.2, 0, -0.2]},
+                "rigid body": "Y", "when": {"tracks": "belt"}, "hidden": {"row": row, "at": [0.3, 0, -0.3]},
             },
         }  # fmt: skip
         on_ground = {"joint_type": "Revolute", "when": {"tracks": "shoes"}}
