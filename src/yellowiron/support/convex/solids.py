@@ -170,6 +170,28 @@ def touch(one: Convex, other: Convex, within: float) -> bool:
     return bool((one.low <= other.high + within).all() and (other.low <= one.high + within).all())
 
 
+class Boxes:
+    """The boxes of numbered solids, to ask for those near one of them. There is room for `most`."""
+
+    def __init__(self, solids: Iterable[Convex], *, most: int) -> None:
+        self._low, self._high = np.full((most, 3), np.inf), np.full((most, 3), -np.inf)
+        for number, solid in enumerate(solids):
+            self.put(number, solid)
+
+    def put(self, number: int, solid: Convex) -> None:
+        """Counts a solid in."""
+        self._low[number], self._high[number] = solid.low, solid.high
+
+    def drop(self, number: int) -> None:
+        """Leaves it out from now on."""
+        self._low[number], self._high[number] = np.inf, -np.inf
+
+    def near(self, solid: Convex, within: float) -> list[int]:
+        """Numbers of those whose boxes come as near to a solid's as `within` metres, in order."""
+        close = (self._low <= solid.high + within) & (self._high >= solid.low - within)
+        return [int(number) for number in np.flatnonzero(close.all(axis=1))]
+
+
 def interpenetrate(one: Convex, other: Convex, depth: float) -> bool:
     """Whether a ball of that radius (metres) has room in both: by a linear program over their planes."""
     from scipy.optimize import linprog
@@ -192,28 +214,35 @@ def merged(solids: Sequence[Convex], within: float) -> list[tuple[Convex, frozen
     """Fewer solids, each with the indices of those it stands for: two become their hull where no point of its surface
     is farther than `within` (metres) from one of them, the pair with the least such distance first."""
     members = {number: (solid, frozenset([number])) for number, solid in enumerate(solids)}
-    names = itertools.count(len(solids))
+    boxes = Boxes(solids, most=2 * len(solids))
     queue: list[tuple[float, int, int, int, Convex]] = []
     tie = itertools.count()
 
-    def price(one: int, other: int) -> None:
-        first, second = members[one][0], members[other][0]
-        if touch(first, second, 2.0 * within):
-            union = _solid(np.concatenate([first.corners, second.corners]))
-            away = _away(union, first, second, _ROUGH)  # most are found out by few points
+    def price(one: int) -> None:
+        """Of one with all that come before it."""
+        first = members[one][0]
+        for other in boxes.near(first, 2.0 * within):
+            if other >= one:
+                break
+            second = members[other][0]
+            union = _solid(np.concatenate([second.corners, first.corners]))
+            away = _away(union, second, first, _ROUGH)  # most are found out by few points
             if away <= within:
-                away = _away(union, first, second, spacing_of(within))
+                away = _away(union, second, first, spacing_of(within))
             if away <= within:
-                heapq.heappush(queue, (round(away, 9), one, other, next(tie), union))
+                heapq.heappush(queue, (round(away, 9), other, one, next(tie), union))
 
-    for one, other in itertools.combinations(sorted(members), 2):
-        price(one, other)
+    for number in range(len(solids)):
+        price(number)
+    made = len(solids)
     while queue:
         _, one, other, _, union = heapq.heappop(queue)
         if one in members and other in members:
-            made = next(names)
             stood_for = members.pop(one)[1] | members.pop(other)[1]
+            boxes.drop(one)
+            boxes.drop(other)
             members[made] = (union, stood_for)
-            for known in sorted(members)[:-1]:
-                price(known, made)
+            boxes.put(made, union)
+            price(made)
+            made += 1
     return [members[name] for name in sorted(members)]

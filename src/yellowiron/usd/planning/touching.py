@@ -12,7 +12,7 @@ it is jointed to, in every one of several poses of these joints: a pin in its ne
 
 from __future__ import annotations
 
-from collections.abc import Iterable, Sequence
+from collections.abc import Collection, Iterable, Mapping, Sequence
 from dataclasses import dataclass, replace
 
 import numpy as np
@@ -22,12 +22,12 @@ from yellowiron.model.mechanism import Joint, Mechanism, chained, rolling
 from yellowiron.support.caching.disk import kept
 from yellowiron.support.convex.pieces import convex_pieces
 from yellowiron.support.convex.solids import (
+    Boxes,
     Convex,
     convex,
     merged,
     outermost,
     spacing_of,
-    touch,
     uncovered,
     with_few_corners,
 )
@@ -147,29 +147,33 @@ def size_of(solids: Iterable[Touching]) -> float:
 # ---- what others cover ----------------------------------------------------------------------------------------------
 def _without_covered(mechanism: Mechanism, drawn: Pool) -> Pool:
     """Those that stand out, the smallest tried first."""
-    left = {name: list(solids) for name, solids in drawn.items()}
+    left = {name: dict(enumerate(solids)) for name, solids in drawn.items()}
+    boxes = {name: Boxes((one.solid for one in solids), most=len(solids)) for name, solids in drawn.items()}
     within = {name: FINE * size_of(solids) for name, solids in drawn.items()}
     poses = {name: _neighbours(mechanism, name) for name in drawn}
-    outlines = {name: _outline(solids) for name, solids in drawn.items()}
+    outlines = {name: _outline(left[name]) for name in drawn}
     order = [(one.solid.volume, name, number) for name, them in drawn.items() for number, one in enumerate(them)]
     for _, name, number in sorted(order):
-        one = drawn[name][number]
-        others = [other for other in left[name] if other is not one]
-        edge = one in outlines[name] and _is_edge(one, others, within[name])
-        if _is_covered(one, others, poses[name], left, EDGE if edge else within[name]):
-            left[name] = others
-            if one in outlines[name]:
-                outlines[name] = _outline(others)
-    return left
+        one = left[name].pop(number)
+        edge = number in outlines[name] and _is_edge(one, left[name].values(), within[name])
+        near = EDGE if edge else within[name]
+        beside = [left[name][other] for other in boxes[name].near(one.solid, near) if other != number]
+        if _is_covered(one, beside, poses[name], left, near):
+            boxes[name].drop(number)
+            if number in outlines[name]:
+                outlines[name] = _outline(left[name])
+        else:
+            left[name][number] = one
+    return {name: [solids[number] for number in sorted(solids)] for name, solids in left.items()}
 
 
-def _outline(solids: Sequence[Touching]) -> frozenset[Touching]:
-    """Those that the hull of all of them has corners of."""
+def _outline(solids: Mapping[int, Touching]) -> frozenset[int]:
+    """The numbers of those that the hull of all of them has corners of."""
     if not solids:
         return frozenset()
-    corners = np.concatenate([one.solid.corners for one in solids])
-    owner = np.repeat(np.arange(len(solids)), [len(one.solid.corners) for one in solids])
-    return frozenset(solids[row] for row in np.unique(owner[outermost(corners)]).tolist())
+    corners = np.concatenate([one.solid.corners for one in solids.values()])
+    owner = np.repeat(list(solids), [len(one.solid.corners) for one in solids.values()])
+    return frozenset(np.unique(owner[outermost(corners)]).tolist())
 
 
 def _neighbours(mechanism: Mechanism, body: str) -> list[list[tuple[str, Floats]]]:
@@ -215,16 +219,22 @@ def _motion(joint: Joint, value: float) -> Floats:
 
 
 def _is_covered(
-    one: Touching, others: Sequence[Touching], poses: Sequence[Sequence[tuple[str, Floats]]], left: Pool, within: float
+    one: Touching,
+    beside: Sequence[Touching],
+    poses: Sequence[Sequence[tuple[str, Floats]]],
+    left: Mapping[str, Mapping[int, Touching]],
+    within: float,
 ) -> bool:
+    """Whether no point of its surface stands out of those `beside` it in its body and, in every pose, of what is `left`
+    of the bodies that this one is jointed to."""
     points = one.solid.surface(spacing_of(within))
-    near = sorted((o.solid for o in others if touch(o.solid, one.solid, within)), key=lambda solid: -solid.volume)
-    points = points[uncovered(points, near, within)]
+    largest_first = sorted((other.solid for other in beside), key=lambda solid: -solid.volume)
+    points = points[uncovered(points, largest_first, within)]
     for pose in poses if len(points) else ():
         open_ = points
         for name, motion in pose:
             moved = open_ @ motion[:3, :3].T + motion[:3, 3]
-            open_ = open_[uncovered(moved, (o.solid for o in left.get(name, ())), within)]
+            open_ = open_[uncovered(moved, (o.solid for o in left.get(name, {}).values()), within)]
             if not len(open_):
                 break
         if len(open_):
@@ -232,7 +242,7 @@ def _is_covered(
     return True
 
 
-def _is_edge(one: Touching, others: Sequence[Touching], within: float) -> bool:
+def _is_edge(one: Touching, others: Collection[Touching], within: float) -> bool:
     """Whether the body's outline would be missing it: a cutting edge that hardly stands out of what it is on."""
     size = float(np.linalg.norm(np.ptp(one.solid.corners, axis=0)))
     if not others or size <= SMALL / FINE * within:
