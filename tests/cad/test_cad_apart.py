@@ -187,28 +187,6 @@ def test_what_is_no_pair_of_wheels_stays_together() -> None:
         assert wheels_apart(assembly) is assembly
 
 
-@pytest.mark.parametrize(("sections", "width"), [(8, 0.4), (12, 0.7), (32, 0.2)])
-def test_a_mesh_that_is_one_wheel_is_one_part(sections: int, width: float) -> None:
-    """A tyre with its lugs and nuts, whatever its axis; what is square, or long, is as many parts as it has solids."""
-
-    def bar(radius: float, height: float) -> Mesh:
-        found = trimesh.creation.cylinder(radius, height, sections=sections)
-        return Mesh(np.asarray(found.vertices), np.asarray(found.faces, dtype=np.int32))
-
-    lug, nut = box("lug", 0.05, 0.05, 0.2).mesh, box("nut", 0.02, 0.02, 0.02).mesh
-    around = [(np.cos(a), np.sin(a)) for a in np.linspace(0, 2 * np.pi, 24, endpoint=False)]
-    lugs = [moved(lug, x, y, 0.0) for x, y in around]
-    nuts = [moved(nut, 0.3 * x, 0.3 * y, 0.5 * width + 0.1) for x, y in around]
-    wheel = merged(bar(1.0, width), *lugs, *nuts)
-    for axis in range(3):
-        turned_so = Mesh(np.roll(wheel.points, axis, axis=1), wheel.triangles)
-        assert [p.id for p in taken_apart(assembly_of(turned_so)).parts] == ["m0"]
-    frame = merged(*(moved(lug, x, y, 0.0) for x in (-1, 1) for y in (-1, 1)))
-    roll = merged(bar(1.0, 4.0), moved(nut, 0.0, 0.0, 2.5))
-    assert len(taken_apart(assembly_of(frame)).parts) == 4
-    assert len(taken_apart(assembly_of(roll)).parts) == 2
-
-
 def rest_and_rams(*meshes: Mesh) -> list[tuple[float, float]]:
     """(low, high) along z of the parts of one mesh once its hydraulic cylinders are taken out."""
     found = rams_apart(assembly_of(merged(*meshes)))

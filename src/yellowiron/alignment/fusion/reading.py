@@ -37,10 +37,9 @@ from yellowiron.model.rows import as_drawn
 from yellowiron.model.template import JointTemplate, Template
 
 GLANCE, FEW, LIKELY = SWEEPS // 2, 4, 4
-"""So many sweeps of few chains tell which variants are the likeliest, and so many of these are judged with more."""
+"""So many sweeps of few chains tell which variants are the likeliest, and so many of these are judged with all."""
 WARM, WARM_UP = 14, 16.0
-"""So many sweeps, from this temperature, tell how good a variant is beside another, from whose labels they begin; whole
-annealings found no more than 5 on 1700 beyond, and are for those that could as well be the one."""
+"""So many sweeps, from this temperature, tell how good a variant is beside another, from whose labels they begin."""
 MANY = 32
 """So many chains settle the variant that was chosen."""
 NEARLY = 2
@@ -136,11 +135,9 @@ def fused(
     ahead = first.score - max(behind, default=-np.inf)
     others = [tried(*machine, evidence, WARM, FEW, first) for machine in machines[1:]]
     glanced = sorted((first, *others), key=lambda b: -b.score)
-    likely = [tried(b.choices, b.template, evidence, WARM, CHAINS, b) for b in glanced[:LIKELY]]
+    likely = [tried(b.choices, b.template, evidence) for b in glanced[:LIKELY]]
     bare = [(b, as_drawn(b.template, b.played)) for b in likely]
-    likely += [tried(b.choices, drawn, evidence, WARM, CHAINS, b) for b, drawn in bare if drawn is not b.template]
-    reached = max(b.score for b in likely) - AS_GOOD
-    likely = [b if b.score < reached else tried(b.choices, b.template, evidence) for b in likely]
+    likely += [tried(b.choices, drawn, evidence) for b, drawn in bare if drawn is not b.template]
     best = max(likely, key=lambda b: b.score)
     best = tried(best.choices, best.template, evidence, chains=MANY)
     if more := _between_found(best, evidence):

@@ -50,16 +50,14 @@ ROUNDED = 12
 SQUARE, OFF, FLAT = 0.05, 0.58, 0.8
 """A wheel is as high as it is long but for this share, nothing of it is further from its axis than so many times that
 (a square's corner is 0.71), and it is no wider than this share of it."""
-SIDES, RIM = 6, 0.9
-"""To each of so many sides, a wheel's outline reaches this share of its radius (an octagon's 0.92)."""
 THIN, THICK = 0.2, 0.95
 """A rod's radius over its barrel's, least and most."""
 
 
 def taken_apart(assembly: Assembly) -> Assembly:
     """The assembly with a part for every solid of its meshes, where surfaces do not say what is one part, and with
-    hydraulic cylinders that are one solid cut into barrel and rod. A part of one solid, or that is one wheel, stays as
-    it is; of others the pieces have the part's name, and its id with a number."""
+    hydraulic cylinders that are one solid cut into barrel and rod. A part of one solid stays as it is; of others the
+    pieces have the part's name, and its id with a number."""
     first = {part.shape: part for part in reversed(assembly.parts)}
     eyes = _eyes(assembly)
     found = {key: _solids(assembly.shapes[key], _moved(eyes, part.transform)) for key, part in sorted(first.items())}
@@ -278,27 +276,6 @@ def _wheels(shape: Shape) -> list[Mesh] | None:
     return None
 
 
-def _is_wheel(mesh: Mesh) -> bool:
-    """Whether all of a mesh is one wheel: lugs, rims and nuts are no parts of their own. Its outline is round from all
-    sides, and it is flat."""
-    points = mesh.points[np.unique(mesh.triangles)]
-    if len(mesh.triangles) < ROUNDED:
-        return False
-    extents = np.ptp(points, axis=0)
-    for k, (i, j) in enumerate(((1, 2), (2, 0), (0, 1))):
-        across = max(extents[i], extents[j])
-        if extents[k] >= FLAT * across or across > (1.0 + SQUARE) * min(extents[i], extents[j]):
-            continue
-        off = points[:, [i, j]] - 0.5 * (points.min(axis=0) + points.max(axis=0))[[i, j]]
-        rim = np.linalg.norm(off, axis=1)
-        side = (np.arctan2(off[:, 1], off[:, 0]) // (2.0 * np.pi / SIDES)).astype(np.int64)
-        reach = np.zeros(SIDES)
-        np.maximum.at(reach, side % SIDES, rim)
-        if rim.max() <= OFF * across and reach.min() >= RIM * rim.max():
-            return True
-    return False
-
-
 def _side_by_side(one: CylinderFeature, other: CylinderFeature) -> bool:
     """Whether two cylinders are equal, parallel, beside each other and not one in the other."""
     apart = np.array(other.center) - np.array(one.center)
@@ -337,7 +314,7 @@ def _moved(eyes: Eyes, transform: Floats) -> Callable[[], Eyes]:
 
 def _solids(shape: Shape, eyes: Callable[[], Eyes]) -> list[Mesh]:
     """The meshes of a shape's solids, barrels and rods apart; where surfaces say what is one part, only these."""
-    found = [shape.mesh] if shape.exact or _is_wheel(shape.mesh) else pieces(shape.mesh)
+    found = [shape.mesh] if shape.exact else pieces(shape.mesh)
     ends = _ends(shape.cylinders)
     cut = []
     for mesh in found:
