@@ -80,6 +80,16 @@ def test_what_is_covered_is_left_out(full: dict[str, list]) -> None:
     assert stood_for == {"plate", "hood", "boss", "bin", "tooth", "tube", "rod", "eye", "beam"}
 
 
+def test_a_body_that_its_neighbours_cover_keeps_its_largest() -> None:
+    mechanism, assembly = machine()
+    inside = [part for part in assembly.parts if part.name == "piston"]
+    rod = next(body for body in mechanism.bodies if body.name == "rod")
+    alone = replace(rod, parts=tuple(p for p in rod.parts if p.part == inside[0].id))
+    bodies = tuple(alone if body is rod else body for body in mechanism.bodies)
+    plan = make_plan(replace(mechanism, bodies=bodies), assembly, np.eye(4), "m")
+    assert [one.label for one in (s.data for s in plan.solids["full"]["rod"])] == ["piston"]
+
+
 def test_what_is_nearly_one_is_merged(full: dict[str, list]) -> None:
     (plates,) = [one for one in full["frame"] if one.label == "plate"]
     assert len(plates.parts) == 2

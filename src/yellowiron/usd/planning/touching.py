@@ -154,6 +154,8 @@ def _without_covered(mechanism: Mechanism, drawn: Pool) -> Pool:
     outlines = {name: _outline(left[name]) for name in drawn}
     order = [(one.solid.volume, name, number) for name, them in drawn.items() for number, one in enumerate(them)]
     for _, name, number in sorted(order):
+        if len(left[name]) == 1:
+            continue  # a body that is all inside its neighbours keeps its largest
         one = left[name].pop(number)
         edge = number in outlines[name] and _is_edge(one, left[name].values(), within[name])
         near = EDGE if edge else within[name]
