@@ -16,8 +16,6 @@ from dataclasses import dataclass, field, replace
 from yellowiron.alignment.assignment.answer import (
     MARGIN,
     Answer,
-    drawn_share,
-    held_share,
     is_whole,
     open_choices,
 )
@@ -54,10 +52,6 @@ EFFORT = 4.0
 """CP-SAT's deterministic time for a search: of machines that are whole, or nearly, it took 0.01 to 1.8."""
 EACH = 1.0
 """… and for one program of it: 0.01 to 0.7."""
-POOR_EFFORT = 0.3
-"""This share of it is enough where, by then, contacts hold less than `POOR` of the joints and explain less than
-`TELLING` of what is drawn: they will not find that machine."""
-POOR, TELLING = 0.4, 0.5
 MANY_JOINTS = 30
 """A type with more joints may take more, as their cube: a backhoe loader of 59 to 63 took up to 8 for one program when
 programs were rewritten first (`cp_sat.solve`)."""
@@ -84,18 +78,16 @@ class Search:
     _named: bool = True
     _tried: list[tuple[dict[str, str], float]] = field(default_factory=list)
     _effort: Effort = field(init=False)
-    _poorest: float = field(init=False)
     _looked: dict[float, tuple[Observation, list[dict[str, float]], list[Structure]]] = field(default_factory=dict)
 
     def __post_init__(self) -> None:
-        self._give(1.0)
+        self._effort = self._allowed(1.0)
 
-    def _give(self, share: float) -> None:
-        """Lets a search take this share of what it may."""
+    def _allowed(self, share: float) -> Effort:
+        """What a search may take."""
         joints = sum(1 for j in machine_of(self.template, {}).joints if j.type in ("revolute", "prismatic"))
         more = max(1.0, joints / MANY_JOINTS) ** 3
-        self._effort = Effort(share * more * EFFORT, more * EACH)
-        self._poorest = (1.0 - POOR_EFFORT) * self._effort.left
+        return Effort(share * more * EFFORT, more * EACH)
 
     def run(self) -> tuple[Answer, Observation, list[dict[str, float]]]:
         """The best answer, what was observed with its tolerance, and what the names say of each solid there, as far as
@@ -107,7 +99,7 @@ class Search:
             self.best, self._tried = None, []
             self._looked = {c: (s, [{} for _ in s.solids], known) for c, (s, _, known) in self._looked.items()}
             self._named = False
-            self._give(AGAIN)
+            self._effort = self._allowed(AGAIN)
             answer, observation, _ = self._run()
             if len(believed) != len(observation.solids):
                 believed = [{} for _ in observation.solids]
@@ -124,17 +116,11 @@ class Search:
                     first, *rest = _by_cylinders(variants, self.template, drawn)
                     for chosen in itertools.chain(*rest) if others else first:
                         self._try(contact, structure, chosen)
-                        if self._effort.spent or self._poor():
+                        if self._effort.spent:
                             return self._result()
                     if self.best is not None and is_whole(self.best) and self._obeyed(self.best):
                         return self._result()
         return self._result()
-
-    def _poor(self) -> bool:
-        """Whether enough was tried for contacts that tell little."""
-        if self.best is None or self._effort.left > self._poorest or held_share(self.best) >= POOR:
-            return False
-        return drawn_share(self.best, self._looked[self.best.contact][0].solids) < TELLING
 
     def _obeyed(self, answer: Answer) -> bool:
         """Whether no cluster is found to be another body than what a person said of most of it."""
