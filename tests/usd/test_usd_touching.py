@@ -15,6 +15,7 @@ from yellowiron.exporters import export_mjcf, read_geometry
 from yellowiron.model.assembly import Assembly, Part
 from yellowiron.model.geometry import Shape
 from yellowiron.model.mechanism import Body, BodyPart, Joint, Mechanism
+from yellowiron.model.template import Material
 from yellowiron.support.convex.solids import CORNERS, uncovered
 from yellowiron.usd import count_colliders, read_mechanism, write_machine
 from yellowiron.usd.planning.plan import make_plan
@@ -131,6 +132,32 @@ def test_light_is_fewer_and_simple(tmp_path: Path) -> None:
     assert {c.kind for c in light.bodies["rod"].colliders} == {"box"}
     assert not any(body.colliders for body in read_geometry(file, detail="visual").bodies.values())
     assert sum(len(b.colliders) for b in read_geometry(file).bodies.values()) == sum(c["full"] for c in counts.values())
+
+
+def test_simple_shapes_reach_no_farther_down() -> None:
+    mechanism, assembly = machine()
+    plan = make_plan(mechanism, assembly, np.eye(4), "m")
+    simple = 0
+    for solids in plan.solids["light"].values():
+        for one in solids:
+            if one.data.primitive is not None:
+                assert one.data.primitive.surface()[:, 2].min() >= one.data.solid.low[2] - EDGE - 1e-9
+                simple += 1
+    assert simple
+
+
+def test_only_what_rubs_alike_is_merged() -> None:
+    mechanism, assembly = machine()
+    frame = mechanism.bodies[0]
+    materials = {name: Material(name, 7850.0, dynamic_friction=rub) for name, rub in (("steel", 0.5), ("rubber", 0.9))}
+    parts = tuple(replace(p, material="rubber" if n == 0 else "steel") for n, p in enumerate(frame.parts))
+    told = replace(mechanism, bodies=(replace(frame, parts=parts), *mechanism.bodies[1:]), materials=materials)
+    plan = make_plan(told, assembly, np.eye(4), "m")
+    plates = [one.data for one in plan.solids["full"]["frame"] if one.data.label.startswith("plate")]
+    assert sorted(one.material for one in plates) == ["rubber", "steel"]
+    same = replace(told, materials=dict.fromkeys(materials, materials["steel"]))
+    plan = make_plan(same, assembly, np.eye(4), "m")
+    assert len([one for one in plan.solids["full"]["frame"] if one.data.label.startswith("plate")]) == 1
 
 
 def test_the_file_says_which_parts_a_collider_stands_for(tmp_path: Path) -> None:

@@ -18,7 +18,7 @@ from yellowiron.kinematics.solver.pose_grid import PoseGrid
 from yellowiron.kinematics.strength import carried, rated_load, weight
 from yellowiron.model.finding import Finding
 from yellowiron.model.geometry import Floats
-from yellowiron.model.mechanism import PROVISIONAL, STATED, Drive, Joint
+from yellowiron.model.mechanism import COMPUTED, PROVISIONAL, STATED, Drive, Joint
 
 STEP = 1e-3
 """Seconds that the engines step, and the exported MJCF says."""
@@ -159,7 +159,7 @@ def position_gains(
     elif keep_damping:
         gains = f"gains: stiffness {stiffness / damping:.3g} times a second its damping, for"
     else:
-        gains = f"gains: a third of what a step of {1e3 * STEP:g} ms bears in any pose; "
+        gains = f"{COMPUTED} of {1e3 * STEP:g} ms bears in any pose; "
         gains += f"stiffness {stiffness / damping:.3g} times a second its damping, for"
     gains += f" the {_shown(mass, unit)} it moves"
     if armature > 0.0:

@@ -29,6 +29,8 @@ UNKNOWN = "unknown"
 """How an entry of `Cylinder.sources` begins where nothing says the quantity; a closed length is then calibrated."""
 PROVISIONAL = "gains provisional"
 """In `Drive.source`: its gains wait for the mass that only the kinematics knows."""
+COMPUTED = "gains: a third of what a step"
+"""How a drive's source says that its gains were worked out."""
 STATED = "template states "
 """In `Drive.source`: before the names of the gains that stay all the same."""
 

@@ -8,6 +8,7 @@ from dataclasses import dataclass, field, replace
 from typing import Any
 
 import numpy as np
+from scipy.spatial.transform import Rotation
 
 from yellowiron.fleet.documents import UnusableError
 from yellowiron.fleet.variants.parameters import DIRECTION, Parameter
@@ -247,14 +248,9 @@ def _mount(work: Changed, parameter: Parameter, name: str, value: float) -> None
     if parameter.vary == "sensor_position":
         work.sensors[name] = replace(sensor, position=_moved(sensor.position, parameter.axis, value))
         return
-    turn = _turn(parameter.axis, value)
+    turn = Rotation.from_rotvec(value * np.eye(3)[parameter.axis]).as_matrix()
     x, z = (triple(turn @ np.asarray(axis)) for axis in (sensor.x_axis, sensor.z_axis))
     work.sensors[name] = replace(sensor, x_axis=x, z_axis=z)
-
-
-def _turn(axis: int, angle: float) -> Floats:
-    cross = np.cross(np.eye(3)[axis], np.eye(3)).T
-    return np.asarray(np.eye(3) + math.sin(angle) * cross + (1.0 - math.cos(angle)) * cross @ cross)
 
 
 def _noise(work: Changed, parameter: Parameter, name: str, value: float) -> None:

@@ -31,14 +31,12 @@ from yellowiron.kinematics.solver.pose_grid import PoseGrid, explore, joint_valu
 from yellowiron.kinematics.tolerances import PINS_APART
 from yellowiron.model.errors import MechanismError
 from yellowiron.model.geometry import Floats
-from yellowiron.model.mechanism import PROVISIONAL, STATED, Drive, Joint, Mechanism
+from yellowiron.model.mechanism import COMPUTED, PROVISIONAL, STATED, Drive, Joint, Mechanism
 
 _FOLLOWS = 1e-6
 """Metres or radians within which a limit of the base is that of its loops."""
 _LIGHT = 1.0
 """N or N·m below which a weight is none, so that a variant's is no multiple of it."""
-_COMPUTED = "gains: a third of what a step"
-"""How the source of a drive says that its gains were worked out; others stay."""
 
 
 class RefusedError(Exception):
@@ -248,6 +246,6 @@ def provisional(base: Drive, drive: Drive | None) -> Drive:
         ratio = drive.max_force / base.max_force / (drive.max_velocity / base.max_velocity)
         ratio = ratio if math.isfinite(ratio) else 1.0
         return replace(drive, damping=base.damping * ratio, armature=0.0)
-    if _COMPUTED not in base.source:
+    if COMPUTED not in base.source:
         return drive
     return replace(drive, stiffness=0.0, damping=0.0, armature=0.0, source=PROVISIONAL)

@@ -238,7 +238,8 @@ class _Placer:
         if key not in self._solids:
             self._solids[key] = solids_of(shape, token)
         matrix = self._frame @ part.transform
-        drawn = as_drawn(self._solids[key], matrix, label=name, material=data.material, part=part.id)
+        material = self._mechanism.materials.get(data.material)
+        drawn = as_drawn(self._solids[key], matrix, label=name, material=material, key=data.material, part=part.id)
         self.pool.setdefault(body, []).extend(drawn)
 
     def _collision(self, asked: Approximation, shape: Shape) -> tuple[Approximation, tuple[Mesh, ...]]:

@@ -16,9 +16,11 @@ from collections.abc import Collection, Iterable, Mapping, Sequence
 from dataclasses import dataclass, replace
 
 import numpy as np
+from scipy.spatial.transform import Rotation
 
 from yellowiron.model.geometry import Floats, Mesh, Shape
 from yellowiron.model.mechanism import Joint, Mechanism, chained, rolling
+from yellowiron.model.template import Material
 from yellowiron.support.caching.disk import kept
 from yellowiron.support.convex.pieces import convex_pieces
 from yellowiron.support.convex.solids import (
@@ -47,6 +49,8 @@ EDGE = 5e-3
 """Metres that leaving out a solid may take from its body's outline, unless it is a small one …"""
 SMALL = 0.05
 """… as bolts are: of the body's size."""
+ALIKE = 0.4
+"""Dynamic friction in steps of this rubs alike: what steels are said to have is one, rubber and chrome are not."""
 AROUND = 8
 """Poses of a joint that turns without end."""
 FROM_END_TO_END = 5
@@ -56,13 +60,14 @@ FROM_END_TO_END = 5
 @dataclass(frozen=True, eq=False)
 class Touching:
     """A collider, metres: a `primitive` or a `solid`, which is its likeness. `parts` are the ids of the CAD parts that
-    it stands for, `label` the name of the largest."""
+    it stands for, `label` the name of the largest. Only what `rubs` alike is taken together."""
 
     label: str
     material: str
     parts: tuple[str, ...]
     solid: Convex
     primitive: Primitive | None = None
+    rubs: tuple[int, str] = (0, "")
 
     def shifted(self, by: Floats) -> Touching:
         """The collider moved by (3,) metres."""
@@ -93,17 +98,20 @@ def solids_of(shape: Shape, token: str) -> tuple[Mesh | Primitive, ...]:
 
 
 def as_drawn(
-    solids: Iterable[Mesh | Primitive], matrix: Floats, *, label: str, material: str, part: str
+    solids: Iterable[Mesh | Primitive], matrix: Floats, *, label: str, material: Material | None, key: str, part: str
 ) -> Iterable[Touching]:
-    """The colliders of one part, whose solids are placed by `matrix` (4, 4)."""
+    """The colliders of one part, whose solids are placed by `matrix` (4, 4); `key`: the material's name there."""
+    rubs = 0, ""
+    if material is not None:
+        rubs = round((material.dynamic_friction or 0.0) / ALIKE), material.friction_combine or ""
     for solid in solids:
         primitive = solid.placed(matrix) if isinstance(solid, Primitive) else None
         if primitive is not None:
-            yield Touching(label, material, (part,), convex(primitive.surface()), primitive)
+            yield Touching(label, key, (part,), convex(primitive.surface()), primitive, rubs)
         else:
             points = solid.surface() if isinstance(solid, Primitive) else solid.points
             made = with_few_corners(convex(points @ matrix[:3, :3].T + matrix[:3, 3]))
-            yield Touching(label, material, (part,), made)
+            yield Touching(label, key, (part,), made, None, rubs)
 
 
 def fine_and_light(mechanism: Mechanism, drawn: Pool) -> tuple[Pool, Pool]:
@@ -183,7 +191,7 @@ def _neighbours(mechanism: Mechanism, body: str) -> list[list[tuple[str, Floats]
     other's drawn solids; pose by pose of the joints."""
     joints = [joint for joint in mechanism.joints if body in (joint.body0, joint.body1)]
     turning = [joint for joint in joints if _has_no_ends(joint)]
-    shares = np.linspace(0.0, 1.0, AROUND if turning else FROM_END_TO_END)
+    shares = np.linspace(0.0, 1.0, AROUND + 1 if turning else FROM_END_TO_END)
     found: list[list[tuple[str, Floats]]] = []
     for share in (None, *shares.tolist()):
         pose: list[tuple[str, Floats]] = []
@@ -214,8 +222,7 @@ def _motion(joint: Joint, value: float) -> Floats:
     if joint.type == "prismatic":
         made[:3, 3] = value * axis
     elif joint.type in ("revolute", "spherical"):
-        cross = np.array([[0.0, -axis[2], axis[1]], [axis[2], 0.0, -axis[0]], [-axis[1], axis[0], 0.0]])
-        made[:3, :3] += np.sin(value) * cross + (1.0 - np.cos(value)) * cross @ cross
+        made[:3, :3] = Rotation.from_rotvec(value * axis).as_matrix()
         made[:3, 3] = anchor - made[:3, :3] @ anchor
     return made
 
@@ -255,22 +262,34 @@ def _is_edge(one: Touching, others: Collection[Touching], within: float) -> bool
 
 # ---- fewer ----------------------------------------------------------------------------------------------------------
 def _together(solids: Sequence[Touching], within: float, *, round_too: bool) -> list[Touching]:
-    """As few as stand for them within a tolerance. Round and square ones stay what they are, unless `round_too`."""
-    kept = [] if round_too else [one for one in solids if one.primitive is not None]
+    """As few as stand for them within a tolerance, of what rubs alike. Round and square ones stay what they are, unless
+    `round_too`."""
+    made = [] if round_too else [one for one in solids if one.primitive is not None]
     rest = [one for one in solids if round_too or one.primitive is None]
+    for rubs in dict.fromkeys(one.rubs for one in rest):
+        made += _merged([one for one in rest if one.rubs == rubs], within)
+    return made
+
+
+def _merged(rest: Sequence[Touching], within: float) -> list[Touching]:
     made = []
     for solid, members in merged([one.solid for one in rest], within):
         stood_for = sorted((rest[number] for number in members), key=lambda one: -one.solid.volume)
         first = stood_for[0]
         parts = tuple(dict.fromkeys(part for one in stood_for for part in one.parts))
         primitive = first.primitive if len(stood_for) == 1 else None
-        made.append(Touching(first.label, first.material, parts, with_few_corners(solid), primitive))
-    return [*kept, *made]
+        made.append(Touching(first.label, first.material, parts, with_few_corners(solid), primitive, first.rubs))
+    return made
 
 
 def _simple(solids: Sequence[Touching], within: float, *, round_too: bool) -> list[Touching]:
+    """A shape in place of a hull reaches down no farther than it but by `EDGE`: else it would lift a machine off the
+    ground."""
     made = []
     for one in _together(solids, within, round_too=round_too):
         primitive = one.primitive or enclosing(one.solid, within)
-        made.append(replace(one, primitive=primitive) if primitive is not None else one)
+        if primitive is None or primitive.surface()[:, 2].min() < one.solid.low[2] - EDGE:
+            made.append(one)
+        else:
+            made.append(replace(one, primitive=primitive))
     return made
