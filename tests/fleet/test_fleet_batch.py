@@ -172,6 +172,37 @@ def test_ctrl_c_ends_what_is_at_work_and_leaves_what_is_whole(tmp_path: Path, in
     assert sum("absent" in line for line in (out / "fleet.csv").read_text().splitlines()) == 6 - len(done)
 
 
+STOPPED_AS_IT_STARTS = """
+import os, signal, sys
+from yellowiron.fleet import attending, planned, pool
+from yellowiron.support import stopping
+
+begin = attending.Child.start
+
+def start(item, key, staging):
+    child = begin(item, key, staging)
+    print(child.process.pid, flush=True)
+    os.kill(os.getpid(), signal.SIGINT)
+    return child
+
+attending.Child.start = start
+stopping.listen()
+_, store, choices = planned(sys.argv[1], sys.argv[2])
+list(pool.LocalRunner(1)([(choice.item, choice.key) for choice in choices], store))
+"""
+
+
+@pytest.mark.slow
+def test_ctrl_c_as_a_child_starts_ends_that_child_too(tmp_path: Path, inputs: Path, root: Path) -> None:
+    manifest = write_manifest(tmp_path, TWO)
+    call = [sys.executable, "-c", STOPPED_AS_IT_STARTS, str(manifest), str(tmp_path / "out")]
+    run = subprocess.run(call, env=environment(root), capture_output=True, text=True, timeout=60, check=False)
+    assert run.returncode == 130, run.stderr
+    with pytest.raises(ProcessLookupError):
+        os.kill(int(run.stdout), 0)
+    assert not (tmp_path / "out" / ".staging").exists()
+
+
 @pytest.mark.slow
 def test_a_place_that_takes_nothing_is_told_of_its_item_alone(tmp_path: Path, inputs: Path) -> None:
     manifest = write_manifest(tmp_path, TWO)

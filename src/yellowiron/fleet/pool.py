@@ -23,6 +23,8 @@ _TRIES = 2
 
 Work = Sequence[tuple[Item, str]]
 """Items with their keys."""
+_Waiting = tuple[Item, str, int]
+"""An item, its key, and which try it is."""
 
 
 class Runner(Protocol):
@@ -46,31 +48,44 @@ class LocalRunner:
         staging = store.staging()
         try:
             while waiting or running:
-                while waiting and len(running) < self.jobs:
-                    item, key, tries = waiting.popleft()
-                    try:
-                        running.append((Child.start(item, key, staging), tries))
-                    except OutputError as error:
-                        yield Outcome(item.id, "disk", error.message, item.id, error.hint)
-                for entry in [*running]:
-                    child, tries = entry
-                    outcome = child.ended()
-                    if outcome is None:
-                        continue
-                    running.remove(entry)
-                    if outcome.status == "killed" and tries < _TRIES:
-                        child.clear()
-                        waiting.append((child.item, child.key, tries + 1))
-                    else:
-                        with stopping.shielded():
-                            outcome = keep(child, outcome, store)
-                        yield outcome
+                # Whenever it is told to stop, every child is among those that run.
+                with stopping.shielded():
+                    ended = [*self._started(waiting, running, staging), *_kept(waiting, running, store)]
+                yield from ended
                 time.sleep(_LOOK_S)
         finally:
             for child, _ in running:
                 child.end()
                 child.clear()
             _remove_empty(staging)
+
+    def _started(self, waiting: deque[_Waiting], running: list[tuple[Child, int]], staging: Path) -> list[Outcome]:
+        """Starts as many as may run; the outcomes of those that cannot be started."""
+        failed = []
+        while waiting and len(running) < self.jobs:
+            item, key, tries = waiting.popleft()
+            try:
+                running.append((Child.start(item, key, staging), tries))
+            except OutputError as error:
+                failed.append(Outcome(item.id, "disk", error.message, item.id, error.hint))
+        return failed
+
+
+def _kept(waiting: deque[_Waiting], running: list[tuple[Child, int]], store: Store) -> list[Outcome]:
+    """The outcomes of those that have ended, their results in their places; what was killed waits again."""
+    ended = []
+    for entry in [*running]:
+        child, tries = entry
+        outcome = child.ended()
+        if outcome is None:
+            continue
+        running.remove(entry)
+        if outcome.status == "killed" and tries < _TRIES:
+            child.clear()
+            waiting.append((child.item, child.key, tries + 1))
+        else:
+            ended.append(keep(child, outcome, store))
+    return ended
 
 
 def _remove_empty(folder: Path) -> None:
