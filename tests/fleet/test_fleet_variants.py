@@ -136,7 +136,7 @@ def test_a_variant_is_read_back_as_it_was_solved_and_checks_find_nothing(machine
     before = {(f.code, f.where.rpartition(".")[0] or f.where) for f in check(machine)}
     for file in made.files:
         number = int(Path(file).stem)
-        wanted = basis.solved(changed(base, draws, [float(v[number]) for v in rows], tools.bodies))
+        wanted = basis.solved(changed(base, draws, [float(v[number]) for v in rows], tools))
         found = read_mechanism(tmp_path / "out" / file)
         _same(found, wanted)
         told = {(f.code, f.where.rpartition(".")[0] or f.where) for f in check(tmp_path / "out" / file)}

@@ -22,7 +22,15 @@ from yellowiron.model.sensor import Sensor
 from yellowiron.support.record import RECORD
 from yellowiron.usd.authoring.metadata import set_custom, to_json
 from yellowiron.usd.authoring.rotation import principal_axes
-from yellowiron.usd.authoring.stage import Types, create_layer, declare_variants, over, set_attribute, set_placement
+from yellowiron.usd.authoring.stage import (
+    Types,
+    create_layer,
+    declare_variants,
+    identifier,
+    over,
+    set_attribute,
+    set_placement,
+)
 from yellowiron.usd.layers.drives import INSTANCES, per_usd_unit, speed_limit, to_usd_unit
 from yellowiron.usd.layers.joints import usd_type
 from yellowiron.usd.layers.mujoco import armature
@@ -31,6 +39,7 @@ from yellowiron.usd.layers.servos import DAMPER, SERVO, write_gains
 from yellowiron.usd.planning.pin_links import KIND as PIN_LINK
 from yellowiron.usd.planning.plan import COLLIDERS, HULL, HULL_SCALE, MATERIALS, VISUALS
 from yellowiron.usd.read import find_machine, open_stage
+from yellowiron.usd.tools import tool_set
 
 _TYRE = 0.98
 """A part of a wheel that reaches out to this share of its radius is its tyre."""
@@ -138,15 +147,18 @@ def variant_layer(
     sublayer: str,
     record: Mapping[str, Any],
     radii: Mapping[str, float],
+    tools: Mapping[str, str] = {},
 ) -> Sdf.Layer:
     """A layer, in memory, that makes a variant of a base machine's file, which `sublayer` names from where the layer
-    will be. `record` stays on the machine's prim, as `variant`; `radii`: wheel → factor of its radius. Binary: of a
-    loader in which all varies it has 15 kB, as text 40."""
+    will be. `record` stays on the machine's prim, as `variant`; `radii`: wheel → factor of its radius; `tools`: body →
+    which of those that `add_tools` has put beside the base. Binary: of a loader in which all varies it has 15 kB, as
+    text 40."""
     layer = create_layer(prims.root[1:], binary=True)
     with Sdf.ChangeBlock():
         layer.subLayerPaths.append(sublayer)
         root = over(layer, prims.root)
         declare_variants(root, "Physics", ("on", "off"))
+        root.variantSelections.update({tool_set(body): identifier(word) for body, word in tools.items()})
         documents: dict[str, Any] = {"variant": to_json(dict(record))}
         for name in ("cylinders", "materials"):
             if getattr(variant, name) != getattr(base, name):

@@ -13,8 +13,9 @@ from scipy.spatial.transform import Rotation
 from yellowiron.fleet.documents import UnusableError
 from yellowiron.fleet.variants.parameters import DIRECTION, Parameter
 from yellowiron.fleet.variants.sampling import Draw
+from yellowiron.fleet.variants.tools import Tool, Tools
 from yellowiron.model.geometry import Floats
-from yellowiron.model.mechanism import Actuator, Body, Cylinder, Drive, Joint, Mechanism, Vector
+from yellowiron.model.mechanism import Actuator, Body, Cylinder, Drive, Joint, Mechanism, Site, Vector
 from yellowiron.model.sensor import Sensor
 from yellowiron.model.template import Material
 from yellowiron.support.vectors import triple
@@ -33,6 +34,7 @@ class Changed:
     cylinders: dict[str, Cylinder]
     materials: dict[str, Material]
     sensors: dict[str, Sensor]
+    sites: dict[str, Site]
     radii: dict[str, float] = field(default_factory=dict)
     play: dict[str, float] = field(default_factory=dict)
     gains: dict[str, tuple[float, float]] = field(default_factory=dict)
@@ -50,14 +52,13 @@ class Changed:
             cylinders=tuple(self.cylinders[cylinder.name] for cylinder in base.cylinders),
             materials={name: self.materials[name] for name in base.materials},
             sensors=tuple(self.sensors[sensor.name] for sensor in base.sensors),
+            sites=tuple(self.sites[site.name] for site in base.sites),
         )
 
 
-def changed(
-    mechanism: Mechanism, draws: Sequence[Draw], values: Sequence[float], tools: Mapping[str, Mapping[str, Body]]
-) -> Changed:
-    """A machine with one sample's values, in the order of the parameters; drives are given the forces and speeds that
-    follow from cylinders, pressures and flows. `tools`: a parameter's name → tool → the body that it is."""
+def changed(mechanism: Mechanism, draws: Sequence[Draw], values: Sequence[float], tools: Tools) -> Changed:
+    """A machine with one sample's values: its tools, then in the order of the parameters; drives are given the forces
+    and speeds that follow from cylinders, pressures and flows."""
     work = Changed(
         mechanism,
         {body.name: body for body in mechanism.bodies},
@@ -65,12 +66,14 @@ def changed(
         {cylinder.name: cylinder for cylinder in mechanism.cylinders},
         dict(mechanism.materials),
         {sensor.name: sensor for sensor in mechanism.sensors},
+        {site.name: site for site in mechanism.sites},
     )
-    for draw, value in zip(draws, values, strict=True):
+    # A payload, or a factor of a mass, is of the tool that is there.
+    for draw, value in sorted(zip(draws, values, strict=True), key=lambda pair: pair[0].parameter.vary != "tool"):
         parameter = draw.parameter
         for name in draw.names:
             if parameter.vary == "tool":
-                _tool(work, parameter, name, int(value), tools[parameter.name])
+                _tool(work, parameter, name, int(value), tools[name])
             else:
                 _CHANGES[parameter.vary](work, parameter, name, float(value))
     for cylinder in mechanism.cylinders:
@@ -215,7 +218,7 @@ def _move_pin(work: Changed, name: str, by: Floats) -> None:
 
 def _payload(work: Changed, parameter: Parameter, name: str, value: float) -> None:
     payload = work.mechanism.payload
-    site = next((s for s in work.mechanism.sites if payload is not None and s.name == payload.site), None)
+    site = next((s for s in work.sites.values() if payload is not None and s.name == payload.site), None)
     if site is None:
         raise UnusableError("The machine has no place for a payload", where=parameter.where, hint="Leave it out.")
     body, load = work.bodies[site.body], max(0.0, value)
@@ -263,12 +266,12 @@ def _noise(work: Changed, parameter: Parameter, name: str, value: float) -> None
     work.sensors[name] = replace(sensor, parameters={**sensor.parameters, **new})
 
 
-def _tool(work: Changed, parameter: Parameter, name: str, chosen: int, tools: Mapping[str, Body]) -> None:
+def _tool(work: Changed, parameter: Parameter, name: str, chosen: int, tools: Mapping[str, Tool]) -> None:
     word = parameter.spread.words[chosen]
     if word != "drawn":
-        tool, body = tools[word], work.bodies[name]
         work.tools[name] = word
-        work.bodies[name] = replace(body, mass=tool.mass, center_of_mass=tool.center_of_mass, inertia=tool.inertia)
+        work.bodies[name] = tools[word].body
+        work.sites.update({site.name: site for site in tools[word].sites})
 
 
 _CHANGES: Mapping[str, Any] = {

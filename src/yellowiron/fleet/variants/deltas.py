@@ -7,6 +7,7 @@ so too; colliders are told apart, by their materials and wheels.
 from __future__ import annotations
 
 import json
+import shutil
 import tempfile
 from collections.abc import Iterator, Mapping, Sequence
 from dataclasses import replace
@@ -14,14 +15,17 @@ from pathlib import Path
 from typing import Any
 from xml.etree import ElementTree as ET
 
+import numpy as np
+
 from yellowiron.exporters import read_geometry
+from yellowiron.exporters.assets import plain
 from yellowiron.exporters.geometry import BodyGeometry, Collider, Geometry
 from yellowiron.exporters.mjcf.document import ASSETS, export_mjcf
 from yellowiron.exporters.values import row, text
 from yellowiron.fleet.documents import UnusableError
 from yellowiron.fleet.variants.changes import Changed
 from yellowiron.fleet.variants.sampling import Draw
-from yellowiron.fleet.variants.tools import Tools
+from yellowiron.fleet.variants.tools import Tool, Tools
 from yellowiron.model.mechanism import Mechanism
 from yellowiron.support.text import to_json
 
@@ -40,19 +44,32 @@ class Deltas:
         self._geometry = read_geometry(file)
         self._bare = Geometry({name: BodyGeometry() for name in self._geometry.bodies}, self._geometry.filtered)
         vary = {draw.parameter.vary for draw in draws}
+        self._tools = {
+            (body, word): shape_of(tool, body)
+            for body, own in tools.items()
+            for word, tool in own.items()
+            if tool.file is not None
+        }
         with tempfile.TemporaryDirectory(prefix="yellowiron-") as folder:
             self._light = _elements(self._exported(mechanism, self._bare, Path(folder, "light")))
-            marked = vary & {"friction", "tyre_radius"}
-            tree = self._exported(mechanism, self._marked(), Path(folder, "marked")) if marked else None
-        self._geoms = list(_geoms(tree)) if tree is not None else []
+            marked = bool(vary & {"friction", "tyre_radius"})
+            self._geoms = self._marked(self._geometry, Path(folder, "marked")) if marked else []
+            self._own_geoms = {
+                (body, word): self._marked(self._alone(body, shape), Path(folder, "tools", str(number)))
+                for number, ((body, word), shape) in enumerate(self._tools.items() if marked else ())
+            }
         if "tyre_radius" in vary:
             self._check_wheels(draws)
 
     def _exported(self, mechanism: Mechanism, geometry: Geometry, folder: Path) -> ET.Element:
         return ET.parse(export_mjcf(mechanism, geometry, folder)).getroot()
 
-    def _marked(self) -> Geometry:
-        """The geometry with the number of each collider's material for its friction, 1 for the first."""
+    def _alone(self, body: str, shape: BodyGeometry) -> Geometry:
+        """The geometry of a machine of which one body alone is there."""
+        return replace(self._bare, bodies={**self._bare.bodies, body: shape})
+
+    def _marked(self, geometry: Geometry, folder: Path) -> list[tuple[str, ET.Element]]:
+        """Bodies and colliders, these with the number of their material for their friction, 1 for the first."""
         number = {name: float(place) for place, name in enumerate(self._base.materials, start=1)}
 
         def mark(collider: Collider) -> Collider:
@@ -60,9 +77,9 @@ class Deltas:
 
         bodies = {
             name: replace(own, visuals=(), colliders=tuple(map(mark, own.colliders)))
-            for name, own in self._geometry.bodies.items()
+            for name, own in geometry.bodies.items()
         }
-        return replace(self._geometry, bodies=bodies)
+        return list(_geoms(self._exported(self._base, replace(geometry, bodies=bodies), folder)))
 
     def _check_wheels(self, draws: Sequence[Draw]) -> None:
         for draw in draws:
@@ -74,8 +91,19 @@ class Deltas:
                     )  # fmt: skip
 
     def write_base(self, folder: Path) -> None:
-        """The machine in MJCF."""
+        """The machine in MJCF, and what its tools are of."""
         export_mjcf(self._base, self._geometry, folder)
+        for (body, word), shape in self._tools.items():
+            with tempfile.TemporaryDirectory(prefix="yellowiron-") as made:
+                tree = self._exported(self._base, self._alone(body, shape), Path(made))
+                tool = _tool_of(tree, body, word)
+                for mesh in tool.iter("mesh"):
+                    (folder / ASSETS).mkdir(exist_ok=True)
+                    shutil.copyfile(Path(made, ASSETS, mesh.attrib.pop("from")), folder / ASSETS / mesh.attrib["file"])
+            place = _tool_file(folder, body, word)
+            place.parent.mkdir(exist_ok=True)
+            ET.indent(tool)
+            place.write_text(ET.tostring(tool, encoding="unicode") + "\n", encoding="utf-8")
 
     def write(self, work: Changed, variant: Mechanism, record: Mapping[str, Any], stem: Path) -> None:
         """Writes what differs to `stem` with its suffix."""
@@ -90,17 +118,23 @@ class Deltas:
                 delta[key] = changed
         for key, touching in self._touching(work, variant):
             delta.setdefault(key, {}).update(touching)
-        stem.with_suffix(SUFFIX).write_text(to_json({**record, "delta": delta}), encoding="utf-8")
+        tools = {body: word for body, word in work.tools.items() if (body, word) in self._tools}
+        document = {**record, **({"tools": tools} if tools else {}), "delta": delta}
+        stem.with_suffix(SUFFIX).write_text(to_json(document), encoding="utf-8")
 
     def _touching(self, work: Changed, variant: Mechanism) -> Iterator[tuple[str, dict[str, str | None]]]:
         """Frictions and radii of colliders."""
         materials = list(self._base.materials)
-        for _, geom in self._geoms:
+        swapped = [(body, word) for body, word in work.tools.items() if (body, word) in self._tools]
+        geoms = [(geom, "") for body, geom in self._geoms if (body, work.tools.get(body, "")) not in swapped]
+        for key in swapped if self._own_geoms else ():
+            geoms += [(geom, f"{key[1]}.") for _, geom in self._own_geoms[key]]
+        for geom, before in geoms:
             place = round(float(geom.get("friction", "0").split()[0]))
             name = materials[place - 1] if place else ""
             if name and variant.materials[name] != self._base.materials[name]:
                 friction = variant.materials[name].dynamic_friction
-                yield f"geom {geom.get('name')}", {"friction": None if friction is None else text(friction)}
+                yield f"geom {before}{geom.get('name')}", {"friction": None if friction is None else text(friction)}
         for wheel, factor in work.radii.items():
             own = [geom for body, geom in self._geoms if body == wheel and geom.get("type") in _ROUND]
             sizes = [[float(each) for each in str(geom.get("size")).split()] for geom in own]
@@ -127,6 +161,60 @@ def _geoms(top: ET.Element) -> Iterator[tuple[str, ET.Element]]:
         for geom in body.findall("geom"):
             if geom.get("class") == "collision":
                 yield str(body.get("name")), geom
+
+
+def shape_of(tool: Tool, body: str) -> BodyGeometry:
+    """What a tool of another machine looks like and collides with, in the drawn body's frame."""
+    assert tool.file is not None
+    shift = np.eye(4)
+    shift[:3, 3] = tool.shift
+    own = read_geometry(tool.file).bodies[body]
+    return replace(
+        own,
+        visuals=tuple(replace(each, matrix=shift @ each.matrix) for each in own.visuals),
+        colliders=tuple(replace(each, matrix=shift @ each.matrix) for each in own.colliders),
+    )
+
+
+def _tool_file(base: Path, body: str, word: str) -> Path:
+    return base / "tools" / f"{plain(body)}.{plain(word)}.xml"
+
+
+def _tool_of(tree: ET.Element, body: str, word: str) -> ET.Element:
+    """The geoms of one body and what they are made of, as a document. Names begin with the tool's; a mesh says which
+    file its own is made `from`."""
+    top = ET.Element("mujoco", model=word)
+    asset = ET.SubElement(top, "asset")
+    for made in tree.findall("asset/*"):
+        made.set("name", f"{word}.{made.get('name')}")
+        if made.tag == "mesh":
+            made.set("from", str(made.get("file")))
+            made.set("file", f"{plain(word)}.{made.get('file')}")
+        asset.append(made)
+    holder = ET.SubElement(ET.SubElement(top, "worldbody"), "body", name=body)
+    for geom in next(each for each in tree.iter("body") if each.get("name") == body).findall("geom"):
+        for name in ("name", "mesh", "material"):
+            if geom.get(name):
+                geom.set(name, f"{word}.{geom.get(name)}")
+        holder.append(geom)
+    return top
+
+
+def swap(document: ET.Element, base: Path, tools: Mapping[str, str]) -> None:
+    """Puts tools to the MJCF of the machine in the folder `base`, in place of the drawn ones."""
+    assets = document.find("asset")
+    for name, word in tools.items():
+        tool = ET.parse(_tool_file(base, name, word)).getroot()
+        body = next(each for each in document.iter("body") if each.get("name") == name)
+        drawn = body.findall("geom")
+        place = list(body).index(drawn[0]) if drawn else len(body)
+        for geom in drawn:
+            body.remove(geom)
+        for number, geom in enumerate(tool.findall("worldbody/body/geom")):
+            body.insert(place + number, geom)
+        if assets is None:
+            assets = ET.SubElement(document, "asset")
+        assets.extend(tool.findall("asset/*"))
 
 
 def apply(document: ET.Element, delta: Delta) -> None:
@@ -159,7 +247,9 @@ def spec_of(file: str | Path) -> Any:
     scenes = ("scene.xml", "lidar.xml")
     machine = next(path for path in sorted(base.glob("*.xml")) if path.name not in scenes)
     document = ET.parse(machine).getroot()
-    apply(document, json.loads(file.read_text(encoding="utf-8"))["delta"])
+    said = json.loads(file.read_text(encoding="utf-8"))
+    swap(document, base, said.get("tools", {}))
+    apply(document, said["delta"])
     spec = mujoco.MjSpec.from_string(ET.tostring(document, encoding="unicode"))
     spec.meshdir = str(base / ASSETS)
     return spec

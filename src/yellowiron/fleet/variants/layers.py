@@ -26,21 +26,33 @@ class Layers:
     def __init__(self, mechanism: Mechanism, file: Path, draws: Sequence[Draw], tools: Tools) -> None:
         from yellowiron.usd.variant import machine_prims
 
-        self._base, self._file = mechanism, file
+        self._base, self._file, self._tools = mechanism, file, tools
         self._prims = machine_prims(file, wheels_of(mechanism, draws))
 
     def write_base(self, folder: Path) -> None:
-        """The machine as it is."""
-        copy_machine(self._file, folder)
+        """The machine as it is, and beside it the tools that it may have."""
+        from yellowiron.usd.tools import ToolShape, add_tools
+
+        file = copy_machine(self._file, folder)
+        for body, tools in self._tools.items():
+            shapes = {
+                word: ToolShape(tool.file, tool.body, tool.sites, tool.shift)
+                for word, tool in tools.items()
+                if tool.file is not None
+            }
+            if shapes:
+                add_tools(file, self._base.body(body), shapes)
 
     def write(self, work: Changed, variant: Mechanism, record: Mapping[str, Any], stem: Path) -> None:
         """Writes a variant's layer to `stem` with its suffix."""
         from yellowiron.usd.authoring.stage import save_layer
         from yellowiron.usd.variant import variant_layer
 
+        shaped = {body: word for body, word in work.tools.items() if self._tools[body][word].file is not None}
         layer = variant_layer(
-            self._base, variant, self._prims, sublayer=f"../base/{self._file.name}", record=record, radii=work.radii
-        )
+            self._base, variant, self._prims, sublayer=f"../base/{self._file.name}", record=record, radii=work.radii,
+            tools=shaped,
+        )  # fmt: skip
         save_layer(layer, stem.with_suffix(SUFFIX))
 
 

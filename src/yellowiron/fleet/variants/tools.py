@@ -1,9 +1,9 @@
-"""Tools that a variant may have instead of the one that is drawn: their masses, said or another built machine's."""
+"""Tools that a variant may have instead of the drawn one: another built machine's, or a mass that is said."""
 
 from __future__ import annotations
 
 from collections.abc import Mapping, Sequence
-from dataclasses import dataclass, field, replace
+from dataclasses import dataclass, replace
 from fnmatch import fnmatchcase
 from pathlib import Path
 from typing import Any
@@ -13,7 +13,7 @@ import numpy as np
 from yellowiron.fleet.documents import UnusableError
 from yellowiron.fleet.places import joined
 from yellowiron.fleet.variants.parameters import Parameter
-from yellowiron.model.mechanism import Body, Mechanism
+from yellowiron.model.mechanism import Body, Mechanism, Site, Vector
 from yellowiron.support.units import parse_quantity
 from yellowiron.support.vectors import triple
 
@@ -21,36 +21,47 @@ _APART = 2e-3
 """Metres: pins of a tool that are farther from the drawn one's are of another linkage."""
 
 
-@dataclass(frozen=True)
-class Tools:
-    """`bodies`: parameter → tool → the body with its mass, centre and inertia, where the drawn one is. `files`: tool →
-    the machine's file that its shape is in."""
+@dataclass(frozen=True, eq=False)
+class Tool:
+    """A tool where the drawn one is: `body` with its mass, centre and inertia, and of another machine's its parts, hull
+    and `sites`, which is moved by `shift`, metres, in the body's frame. `file`: that machine's; None: the shape stays
+    the drawn one."""
 
-    bodies: Mapping[str, Mapping[str, Body]] = field(default_factory=dict)
-    files: Mapping[str, Path] = field(default_factory=dict)
+    body: Body
+    sites: tuple[Site, ...] = ()
+    file: Path | None = None
+    shift: Vector = (0.0, 0.0, 0.0)
+
+
+Tools = Mapping[str, Mapping[str, Tool]]
+"""Body → tool → what it is."""
 
 
 def read_tools(parameters: Sequence[Parameter], mechanism: Mechanism, file: Path) -> Tools:
     """The tools that parameters name. `UnusableError` for one that does not fit the machine."""
-    bodies: dict[str, dict[str, Body]] = {}
-    files: dict[str, Path] = {}
+    tools: dict[str, dict[str, Tool]] = {}
     for parameter in parameters:
         if parameter.vary != "tool":
             continue
         fitting = [b for b in mechanism.bodies if any(fnmatchcase(b.name, pattern) for pattern in parameter.of)]
         if len(fitting) != 1:
             raise UnusableError("A tool is of one body", where=f"{parameter.where}.of", hint="of: bucket")
+        if fitting[0].name in tools:
+            raise UnusableError(
+                f"'{fitting[0].name}' has its tools already", where=parameter.where, hint="Name them in one place."
+            )
+        own = tools.setdefault(fitting[0].name, {})
         for name, said in parameter.tools.items():
             where = f"{parameter.where}.tools.{name}"
             if "machine" in said:
-                files[name] = Path(joined(str(file.resolve().parent), said["machine"]))
-                bodies.setdefault(parameter.name, {})[name] = _of_machine(files[name], fitting[0], mechanism, where)
+                place = Path(joined(str(file.resolve().parent), said["machine"]))
+                own[name] = _of_machine(place, fitting[0], mechanism, where)
             else:
-                bodies.setdefault(parameter.name, {})[name] = _of_numbers(said, fitting[0], where)
-    return Tools(bodies, files)
+                own[name] = Tool(_of_numbers(said, fitting[0], where))
+    return tools
 
 
-def _of_machine(file: Path, drawn: Body, mechanism: Mechanism, where: str) -> Body:
+def _of_machine(file: Path, drawn: Body, mechanism: Mechanism, where: str) -> Tool:
     """The same body of another machine, moved to where the drawn one is: by its pins, which must be the same."""
     from yellowiron.usd import read_mechanism
 
@@ -68,8 +79,17 @@ def _of_machine(file: Path, drawn: Body, mechanism: Mechanism, where: str) -> Bo
             f"The tool's pins are elsewhere, by {1e3 * float(np.abs(moves - move).max()):.0f} mm", where=where,
             hint="A tool fits where its pins are those of the drawn one.",
         )  # fmt: skip
-    return replace(drawn, mass=tool.mass, center_of_mass=triple(np.asarray(tool.center_of_mass) + move),
-                   inertia=tool.inertia)  # fmt: skip
+    known = {site.name for site in mechanism.sites if site.body == drawn.name}
+    body = replace(
+        drawn, mass=tool.mass, center_of_mass=triple(np.asarray(tool.center_of_mass) + move), inertia=tool.inertia,
+        parts=tool.parts, hull=tool.hull + move if len(tool.hull) else tool.hull,
+    )  # fmt: skip
+    sites = tuple(
+        replace(site, position=triple(np.asarray(site.position) + move))
+        for site in other.sites
+        if site.body == drawn.name and site.name in known
+    )
+    return Tool(body, sites, file, triple(np.asarray(tool.origin) + move - np.asarray(drawn.origin)))
 
 
 def _of_numbers(said: Mapping[str, Any], drawn: Body, where: str) -> Body:

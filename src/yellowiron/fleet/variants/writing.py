@@ -140,7 +140,7 @@ class Maker:
         for number in numbers:
             row = [float(column[number]) for column in table]
             try:
-                work = changed(self.mechanism, self.draws, row, self.tools.bodies)
+                work = changed(self.mechanism, self.draws, row, self.tools)
                 variant = self._basis.solved(work)
             except RefusedError as error:
                 yield _Made(number, str(error))

@@ -66,7 +66,7 @@ def write_bodies(layer: Sdf.Layer, plan: Plan) -> None:
         if len(body.hull):
             add_reference(define(layer, f"{path}/{HULL}"), f"./{GEOMETRY_FILE}", plan.hull_paths[body.name])
         for site in sites.get(body.name, ()):
-            _write_site(layer, plan.site_paths[site.name], site, body)
+            write_site(layer, plan.site_paths[site.name], site, body)
     write_pin_frames(layer, plan.pin_links)
 
 
@@ -199,7 +199,7 @@ def _write_primitive(layer: Sdf.Layer, path: str, primitive: Primitive) -> None:
     set_attribute(spec, "extent", Types.Float3Array, extent)
 
 
-def _write_site(layer: Sdf.Layer, path: str, site: Site, body: Body) -> None:
+def write_site(layer: Sdf.Layer, path: str, site: Site, body: Body) -> None:
     """A named frame: a small ball among the guides, since Newton takes only a Gprim for a site."""
     spec = define(layer, path, "Sphere")
     set_display_name(spec, site.name)
