@@ -7,30 +7,9 @@ from pathlib import Path
 
 import pytest
 
+from kit.fleets import FAULTY, READERS
 from kit.packages import install_package
 from kit.small import write_small
-
-READERS = """
-import os, re, signal, time
-from yellowiron.cad.formats import CadFormat
-
-CRASH = CadFormat("crash", (".crash",), "faulty_readers:crash", content=re.compile(rb"CRASH"))
-HANG = CadFormat("hang", (".hang",), "faulty_readers:hang", content=re.compile(rb"HANG"))
-MEMORY = CadFormat("memory", (".memory",), "faulty_readers:memory", content=re.compile(rb"MEMORY"))
-
-def crash(path):
-    os.kill(os.getpid(), signal.SIGSEGV)
-
-def hang(path):
-    while True:
-        time.sleep(1)
-
-def memory(path):
-    held = []
-    while True:
-        held.append(bytearray(os.urandom(1 << 20)) * 16)
-        time.sleep(0.002)
-"""
 
 
 @pytest.fixture
@@ -47,10 +26,9 @@ def inputs(tmp_path: Path) -> Path:
 @pytest.fixture
 def faulty_readers(tmp_path: Path, monkeypatch: pytest.MonkeyPatch, inputs: Path) -> None:
     """Formats of another package whose readers crash, hang and take all memory; a file of each."""
-    entries = {name.lower(): f"faulty_readers:{name}" for name in ("CRASH", "HANG", "MEMORY")}
     install_package(
-        tmp_path / "site", monkeypatch, name="faulty-readers", group="yellowiron.cad_formats", entries=entries,
-        modules={"faulty_readers": READERS},
+        tmp_path / "site", monkeypatch, name="faulty-readers", group="yellowiron.cad_formats",
+        entries=FAULTY, modules={"faulty_readers": READERS},
     )  # fmt: skip
-    for name in ("CRASH", "HANG", "MEMORY"):
-        (inputs / f"bad.{name.lower()}").write_text(name)
+    for name in FAULTY:
+        (inputs / f"bad.{name}").write_text(name.upper())

@@ -8,6 +8,31 @@ from typing import Any
 
 SETTINGS = ["Arm Angle Up=40 deg", "Arm Angle Down=20 deg"]
 
+READERS = """
+import os, re, signal, time
+from yellowiron.cad.formats import CadFormat
+
+CRASH = CadFormat("crash", (".crash",), "faulty_readers:crash", content=re.compile(rb"CRASH"))
+HANG = CadFormat("hang", (".hang",), "faulty_readers:hang", content=re.compile(rb"HANG"))
+MEMORY = CadFormat("memory", (".memory",), "faulty_readers:memory", content=re.compile(rb"MEMORY"))
+
+def crash(path):
+    os.kill(os.getpid(), signal.SIGSEGV)
+
+def hang(path):
+    while True:
+        time.sleep(1)
+
+def memory(path):
+    held = []
+    while True:
+        held.append(bytearray(os.urandom(1 << 20)) * 16)
+        time.sleep(0.002)
+"""
+"""Readers that crash, hang and take all memory: a module, `faulty_readers`, of another package."""
+FAULTY = {name.lower(): f"faulty_readers:{name}" for name in ("CRASH", "HANG", "MEMORY")}
+"""Its entry points among CAD formats: a file's suffix, and its content in small letters, → reader."""
+
 
 def write_manifest(folder: Path, machines: list[dict[str, Any]], **defaults: Any) -> Path:
     """A manifest of small machines, as JSON."""
