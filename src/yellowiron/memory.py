@@ -14,7 +14,7 @@ from concurrent.futures import ThreadPoolExecutor
 from pathlib import Path
 from typing import Any
 
-from yellowiron import cad, checks, kinematics, library, report, said, specs, usd
+from yellowiron import cad, checks, exporters, kinematics, library, report, said, specs, usd
 from yellowiron.alignment import said_in
 from yellowiron.endpoint import ModelOptions
 from yellowiron.model.alignment import Alignment
@@ -134,8 +134,9 @@ def measure(mechanism: Mechanism) -> tuple[tuple[Measurement, ...], dict[str, di
 def write(
     mechanism: Mechanism, assembly: Assembly, frame: Floats, folder: Path, *, textures: Sequence[str]
 ) -> tuple[tuple[Finding, ...], dict[str, int], dict[str, dict[str, int]]]:
-    """Writes the machine into an empty folder and checks it: what the rules found, `usd.count_joints` and
-    `usd.count_colliders`. `textures`: folders in which those that materials name are looked for."""
+    """Writes the machine into an empty folder and checks it: what the rules found and what meets over the strokes,
+    `usd.count_joints` and `usd.count_colliders`. `textures`: folders in which those that materials name are looked
+    for."""
 
     def make() -> tuple[dict[str, bytes], tuple[tuple[Finding, ...], dict[str, int], dict[str, dict[str, int]]]]:
         usd.write_machine(
@@ -144,8 +145,8 @@ def write(
         )  # fmt: skip
         files = {str(f.relative_to(folder)): f.read_bytes() for f in sorted(folder.rglob("*")) if f.is_file()}
         machine = folder / f"{mechanism.name}.usda"
-        found = checks.check(folder / "scene.usda"), usd.count_joints(machine), usd.count_colliders(machine)
-        return files, found
+        told = (*checks.check(folder / "scene.usda"), *_clearances(mechanism, machine))
+        return files, (told, usd.count_joints(machine), usd.count_colliders(machine))
 
     if any(material.texture for material in mechanism.materials.values()):
         return make()[1]
@@ -156,6 +157,12 @@ def write(
             place.parent.mkdir(parents=True, exist_ok=True)
             place.write_bytes(content)
     return found
+
+
+def _clearances(mechanism: Mechanism, machine: Path) -> tuple[Finding, ...]:
+    bodies = exporters.read_geometry(machine).bodies
+    outlines = {name: kinematics.Outline(exporters.solids_of(b), exporters.drawn_of(b)) for name, b in bodies.items()}
+    return kinematics.clearance_findings(mechanism, kinematics.meetings(mechanism, outlines))
 
 
 def lint(template: Template) -> tuple[Finding, ...]:

@@ -19,6 +19,7 @@ if TYPE_CHECKING:
     from yellowiron.exporters.mjcf.document import TIMESTEP, export_mjcf, integrator_of
     from yellowiron.exporters.registry import EXPORTERS, Exporter, export, exporter_names, find_exporter, unsaid
     from yellowiron.exporters.ros.joint_states import JointStates
+    from yellowiron.exporters.shapes import drawn_of, solids_of
 
 __all__ = [
     "EXPORTERS",
@@ -29,6 +30,7 @@ __all__ = [
     "JointStates",
     "LinkTable",
     "actuator_names",
+    "drawn_of",
     "export",
     "export_mjcf",
     "exporter_names",
@@ -36,6 +38,7 @@ __all__ = [
     "integrator_of",
     "links_of",
     "read_geometry",
+    "solids_of",
     "unsaid",
 ]
 
@@ -50,6 +53,7 @@ __getattr__, __dir__ = lazy_names(
         "JointStates": "ros.joint_states",
         "LinkTable": "link_table",
         "actuator_names": "mjcf.actuators",
+        "drawn_of": "shapes",
         "export": "registry",
         "export_mjcf": "mjcf.document",
         "exporter_names": "registry",
@@ -57,6 +61,7 @@ __getattr__, __dir__ = lazy_names(
         "integrator_of": "mjcf.document",
         "links_of": "link_table",
         "read_geometry": "geometry",
+        "solids_of": "shapes",
         "unsaid": "registry",
     },
 )

@@ -7,10 +7,11 @@ from dataclasses import dataclass
 import numpy as np
 
 from yellowiron.exporters.assets import Assets, unique
-from yellowiron.exporters.geometry import BodyGeometry, Geometry, Kind
+from yellowiron.exporters.geometry import BodyGeometry, Collider, Geometry, Kind
 from yellowiron.exporters.values import quaternion
 from yellowiron.model.geometry import Color, Floats, Mesh
 from yellowiron.support.convex.pieces import convex_pieces, hull
+from yellowiron.support.convex.solids import Convex, convex
 
 
 class ConvexPieces:
@@ -34,6 +35,46 @@ class ConvexPieces:
             else:
                 self._pieces[key] = convex_pieces(mesh)
         return self._pieces[key]
+
+
+def solids_of(body: BodyGeometry) -> tuple[Convex, ...]:
+    """What a body collides as, in its own frame."""
+    pieces = ConvexPieces()
+    found = []
+    for collider in body.colliders:
+        if collider.mesh is not None:
+            meshes: tuple[Mesh, ...] = pieces.of(collider.mesh, collider.approximation)
+        else:
+            meshes = (_analytic(collider),)
+        found += [
+            convex(mesh.points @ collider.matrix[:3, :3].T + collider.matrix[:3, 3])
+            for mesh in meshes
+            if len(mesh.triangles)
+        ]
+    return tuple(found)
+
+
+def drawn_of(body: BodyGeometry) -> Floats:
+    """The triangles (n, 3, 3) that are seen of a body, in its own frame."""
+    found = [
+        (visual.mesh.points @ visual.matrix[:3, :3].T + visual.matrix[:3, 3])[visual.mesh.triangles]
+        for visual in body.visuals
+    ]
+    return np.concatenate(found) if found else np.zeros((0, 3, 3))
+
+
+def _analytic(collider: Collider) -> Mesh:
+    """The corners of a box, and of what is round a likeness."""
+    from trimesh import creation
+
+    if collider.kind == "box":
+        made = creation.box(collider.size)
+    elif collider.kind == "sphere":
+        made = creation.icosphere(subdivisions=2, radius=collider.size[0])
+    else:
+        of = creation.capsule if collider.kind == "capsule" else creation.cylinder
+        made = of(radius=collider.size[0], height=collider.size[1])
+    return Mesh(np.asarray(made.vertices, dtype=np.float64), np.asarray(made.faces, dtype=np.int32))
 
 
 def placed(mesh: Mesh, matrix: Floats) -> tuple[Mesh, Floats, Floats]:

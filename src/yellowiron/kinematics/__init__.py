@@ -3,8 +3,8 @@
 `Mechanism` in; out come the mechanism completed (`complete`), calibrated (`calibrate`) or in a legal start pose
 (`started`), `Measurement`s, `PoseTables` and lever tables. MuJoCo is imported with the first function that is asked
 for. In order: `tolerances`, `solver` (the loops solved), `completion` (mobility, limits, branch signs, gains),
-`workable` (cylinders whose linkage does not work), `start`, `measuring` (measurements and calibration), `poses` and
-`levers` (tables for those who have no solver).
+`workable` (cylinders whose linkage does not work), `start`, `clearance` (bodies that meet), `measuring` (measurements
+and calibration), `poses` and `levers` (tables for those who have no solver).
 
 Findings:
 
@@ -26,6 +26,7 @@ KIN014  a published dimension cannot be met wherever the axes that nothing drawn
 KIN015  with the template's pressure a cylinder could not hold the machine's own weight; its force was raised
 KIN016  the stroke of a driven cylinder ends early, where its twin on the other side is at the end of its own
 KIN017  the drives of a linkage with balls do not determine it in the drawn pose
+KIN018  bodies go through each other over the strokes (a warning where a stroke is no sheet's)
 ======  ========================================================================================================
 """
 
@@ -36,6 +37,7 @@ from typing import TYPE_CHECKING
 from yellowiron.support.lazy import lazy_names
 
 if TYPE_CHECKING:
+    from yellowiron.kinematics.clearance import Meeting, Outline, clearance_findings, meetings
     from yellowiron.kinematics.completion import complete
     from yellowiron.kinematics.levers import lever_table
     from yellowiron.kinematics.measuring.axis_placement import OpenAxis, PlacedAxes, place_axes
@@ -52,7 +54,9 @@ if TYPE_CHECKING:
 __all__ = [
     "ClosedChain",
     "KinematicsError",
+    "Meeting",
     "OpenAxis",
+    "Outline",
     "PlacedAxes",
     "State",
     "attached",
@@ -60,12 +64,14 @@ __all__ = [
     "branch_pivots",
     "branch_sine",
     "calibrate",
+    "clearance_findings",
     "complete",
     "key_poses",
     "legal_start",
     "lever_table",
     "measure",
     "measure_and_pose",
+    "meetings",
     "place_axes",
     "pose_tables",
     "started",
@@ -78,7 +84,9 @@ __getattr__, __dir__ = lazy_names(
     {
         "ClosedChain": "solver.chain",
         "KinematicsError": "solver.chain",
+        "Meeting": "clearance",
         "OpenAxis": "measuring.axis_placement",
+        "Outline": "clearance",
         "PlacedAxes": "measuring.axis_placement",
         "State": "solver.chain",
         "attached": "solver.floating",
@@ -86,12 +94,14 @@ __getattr__, __dir__ = lazy_names(
         "branch_pivots": "solver.branches",
         "branch_sine": "solver.branches",
         "calibrate": "measuring.calibration",
+        "clearance_findings": "clearance",
         "complete": "completion",
         "key_poses": "measuring.measurement",
         "legal_start": "start",
         "lever_table": "levers",
         "measure": "measuring.measurement",
         "measure_and_pose": "measuring.measurement",
+        "meetings": "clearance",
         "place_axes": "measuring.axis_placement",
         "pose_tables": "poses",
         "started": "start",

@@ -25,6 +25,8 @@ GRAVITY = 9.81
 """m/s²."""
 DEFAULT = "template's default"
 """How an entry of `Cylinder.sources` begins that no sheet gives."""
+ESTIMATE = "estimate"
+"""How one begins that is what is usual."""
 UNKNOWN = "unknown"
 """How an entry of `Cylinder.sources` begins where nothing says the quantity; a closed length is then calibrated."""
 PROVISIONAL = "gains provisional"

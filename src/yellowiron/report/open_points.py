@@ -117,7 +117,9 @@ def _alike(key: tuple[str, str, str], entries: Sequence[Mapping[str, Any]]) -> C
     severity, code, engine = key
     settings = tuple(dict.fromkeys(s for e in entries for s in _SET.findall(e.get("hint", ""))))
     message = named(entries[0]["message"]).rstrip(".")
-    hint = named(_SET.sub("", entries[0].get("hint", ""))).strip()
+    said = entries[0].get("hint", "").strip()
+    # Where a hint is more than a value to set, it names the value, which is there to paste below.
+    hint = "" if _SET.fullmatch(said) else named(_SET.sub(lambda found: found[1].partition("=")[0], said))
     places = _listed(list(dict.fromkeys(engine + named(e["where"]) for e in entries)))
     differ = len({e["message"] for e in entries}) > 1
     words = f"{places}: {message}" + (" (the first of them; the others likewise)" if differ else "")

@@ -24,7 +24,7 @@ from yellowiron.mechanism.tolerances import PARALLEL
 from yellowiron.mechanism.values import Known, default, known, limit
 from yellowiron.model.finding import Finding
 from yellowiron.model.geometry import Floats
-from yellowiron.model.mechanism import DRAWN_OUTSIDE, UNKNOWN, Cylinder
+from yellowiron.model.mechanism import DRAWN_OUTSIDE, ESTIMATE, UNKNOWN, Cylinder
 from yellowiron.model.specification import Specifications
 from yellowiron.model.template import ActuatorTemplate, CylinderTemplate, JointTemplate, Template
 from yellowiron.support.text import display
@@ -287,7 +287,7 @@ def _stroke(one: _Sizes, drawn: float, work: _Work) -> Known:
         found, words = Known(0.0, UNKNOWN), "its slide has no end"
     else:
         usual = _usual_stroke(one, drawn)
-        found = Known(usual, f"estimate: usual of cylinders of this length, {_mm(usual)}")
+        found = Known(usual, f"{ESTIMATE}: usual of cylinders of this length, {_mm(usual)}")
         words = f"{_mm(usual)} is taken, as is usual of cylinders of this length"
     name = work.actuator.specifications.get("stroke", "the stroke")
     work.warn("MEC023", slide, f"No sheet gives '{name}': {words}.", work.setting("stroke"))
