@@ -173,6 +173,26 @@ def test_zx200_hinges_without_cylinders_are_driven(zx200: tuple[Path, dict[str, 
     assert [f["where"] for f in report["findings"] if f["code"] == "MEC013"] == ["boom", "arm", "bucket"]
     driven = {j["name"]: j["drive"]["kind"] for j in report["joints"] if j.get("drive")}
     assert driven["upperstructure2boom_joint"] == driven["boom2arm_joint"] == driven["arm2bucket_joint"] == "position"
+    assert report["missing"] == []  # no stroke is asked for of a cylinder that is not there
+
+
+def test_zx200_hinges_without_cylinders_move_as_far_as_excavators_do(
+    zx200: tuple[Path, dict[str, Any]], shared_data: Path
+) -> None:
+    """The limits of its robot description, which counts from the pose in the CAD file: nothing here was fitted to it.
+    Its boom is held 55° below where excavators' end."""
+    truth = json.loads((shared_data / "zx200" / "zx200.truth.json").read_text(encoding="utf-8"))
+    limits = {j["name"]: j["limit"] for j in truth["joints"] if j["limit"]}
+    joints = {j["name"]: j for j in zx200[1]["joints"]}
+    boom, arm, bucket = (joints[n] for n in ("upperstructure2boom_joint", "boom2arm_joint", "arm2bucket_joint"))
+    # The arm is drawn 34° beyond its end, and may stay there.
+    assert arm["lower"] == pytest.approx(0.0, abs=1e-6)
+    assert arm["upper"] == pytest.approx(limits["arm_joint"][1], abs=0.04)
+    assert [bucket["lower"], bucket["upper"]] == pytest.approx(limits["bucket_joint"], abs=0.04)
+    assert boom["lower"] == pytest.approx(limits["boom_joint"][0], abs=0.1)
+    for joint in (boom, arm, bucket):
+        assert 1e5 < joint["drive"]["max_force"] < 1e6
+        assert 0.3 < joint["drive"]["max_velocity"] < 3.0
 
 
 def test_zx200_is_drawn_outside_its_limits(

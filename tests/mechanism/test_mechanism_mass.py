@@ -82,6 +82,14 @@ def build(**values: float) -> Mechanism:
     return build_mechanism(assembly, template(), alignment, specifications(**values), name="crane")
 
 
+def test_a_flat_body_s_moments_are_possible_in_single_precision() -> None:
+    """What is left of an undercarriage without its tracks: 1.1 t, a long way from end to end, and flat."""
+    moments = Moments(1127.0, np.zeros(3), np.diag([837.1, 66.9, 0.0])).inertia
+    a, b, c = np.sort(np.linalg.eigvalsh(moments)).astype(np.float32)
+    assert a + b > c
+    assert c == pytest.approx(904.0, rel=1e-4)
+
+
 def test_material_is_the_nearest_role_s() -> None:
     built = build()
     arm = next(p for p in built.body("arm").parts if p.role == "arm")

@@ -26,6 +26,7 @@ DOCUMENTS = (
     "sensors",
     "words",
     "usual",
+    "hinges",
 )
 """The documents a template folder can have, each `<name>.json`; only `joints` is needed, and not even that
 where `modules` bring joints."""

@@ -14,6 +14,7 @@ from yellowiron.mechanism.actuation import cylinders, drives
 from yellowiron.mechanism.actuation.cylinders import FittedCylinder
 from yellowiron.mechanism.actuation.direct_drives import direct_drives, with_direct_hinges, without_cylinders
 from yellowiron.mechanism.actuation.proportion import proportion_of
+from yellowiron.mechanism.actuation.usual_hinges import hinges_driven_directly
 from yellowiron.mechanism.bodies import body, mass
 from yellowiron.mechanism.bodies.choice import Choice
 from yellowiron.mechanism.bodies.hidden_wheels import hidden_wheels, with_wheels
@@ -98,7 +99,7 @@ def build_mechanism(
     findings += remarks
     powered = drives.slide_drives(template, fitted, proportion, findings)
     radii = chains.pitch_radii(placement, template, frames) | {name: wheel.radius for name, wheel in wheels.items()}
-    motors = replace(template, actuators=tuple(a for a in template.actuators if not direct & {*a.joints}))
+    motors = replace(template, actuators=tuple(a for a in template.actuators if not direct.keys() & {*a.joints}))
     powered |= drives.motor_drives(
         motors, frames, tree.sides, placement, specifications, findings, proportion=proportion, radii=radii
     )
@@ -109,6 +110,9 @@ def build_mechanism(
     slides = {f.cylinder.slide: f for group in fitted.values() for f in group}
     joints = tuple(
         _joint(_sourced(frame, alignment), tree, slides, powered, specifications, findings) for frame in frames.values()
+    )
+    joints = hinges_driven_directly(
+        template, joints, direct, lambda body: placement.points_of(placement.rows_of_body(body)), proportion
     )
     joints = with_followers(joints, template, frames, findings)
     joints = _with_idle_held(joints, tree, findings)

@@ -277,9 +277,22 @@ class Usual:
 
 
 @dataclass(frozen=True)
+class UsualHinge:
+    """How the hinge that an actuator's cylinders turn usually moves: from the angle `low` to `high` (rad, from the line
+    of what it is on to that of what it turns), at a `speed` (rad/s), with a `torque` of so many times the machine's
+    weight times the diagonal of its box."""
+
+    low: float
+    high: float
+    speed: float
+    torque: float
+
+
+@dataclass(frozen=True)
 class Template:
     """A template with all its documents. `root` is the body that stands for the machine's base; `words`: words of role
-    names (`rear frame`) → language → what parts of it are called; `usual`: body → where it usually is."""
+    names (`rear frame`) → language → what parts of it are called; `usual`: body → where it usually is; `hinges`:
+    actuator → how its hinge usually moves."""
 
     equipment_type: str
     folder: str
@@ -298,6 +311,7 @@ class Template:
     tests: tuple[MachineTest, ...] = ()
     words: Mapping[str, Mapping[str, tuple[str, ...]]] = field(default_factory=dict)
     usual: Mapping[str, Usual] = field(default_factory=dict)
+    hinges: Mapping[str, UsualHinge] = field(default_factory=dict)
 
     @property
     def sheet_only(self) -> bool:

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Mapping, Sequence
+from collections.abc import Collection, Mapping, Sequence
 from dataclasses import asdict, dataclass, field
 from pathlib import Path
 from typing import Any
@@ -66,7 +66,7 @@ def report_document(facts: BuildFacts) -> dict[str, Any]:
         "measurements": [asdict(m) for m in facts.measurements],
         "findings": [asdict(f) for f in _unique(everything)],
         "simulation": {engine: _repeatable(run) for engine, run in facts.simulation.items()},
-        "missing": missing_limits(facts.template, facts.specifications),
+        "missing": missing_limits(facts.template, facts.specifications, built={j.name for j in facts.mechanism.joints}),
     }
 
 
@@ -212,10 +212,13 @@ def _counts(mechanism: Mechanism, template: Template) -> dict[str, int]:
     }
 
 
-def missing_limits(template: Template, specifications: Specifications) -> list[str]:
-    """Names that a joint limit needs and nothing gives: what a person must supply."""
+def missing_limits(
+    template: Template, specifications: Specifications, *, built: Collection[str] | None = None
+) -> list[str]:
+    """Names that a joint limit needs and nothing gives: what a person must supply. `built`: the joints that there are;
+    what another would need is asked of nobody."""
     names: dict[str, None] = {}
-    for joint in template.joints:
+    for joint in (each for each in template.joints if built is None or each.name in built):
         for limit in (joint.lower, joint.upper):
             if isinstance(limit, str):
                 name = limit.lstrip("-− ").strip()

@@ -1,12 +1,14 @@
-"""Where the bodies of a type usually are, and how large they are: `usual.json`."""
+"""Where the bodies of a type usually are, and how large they are: `usual.json`; how its hinges usually move where their
+cylinders are not drawn: `hinges.json`."""
 
 from __future__ import annotations
 
+import math
 from collections.abc import Mapping
 
 from yellowiron.library.notation.validated_json import Document, near
 from yellowiron.model.errors import TemplateError
-from yellowiron.model.template import Role, Usual
+from yellowiron.model.template import ActuatorTemplate, Role, Usual, UsualHinge
 
 
 def read_usual(document: Document, roles: tuple[Role, ...]) -> Mapping[str, Usual]:
@@ -21,4 +23,23 @@ def read_usual(document: Document, roles: tuple[Role, ...]) -> Mapping[str, Usua
                 hint=near(name, known) or "Write the names of bodies, as in hierarchy.json.",
             )
         found[name] = Usual(tuple(entry["low"]), tuple(entry["high"]), entry["length"], entry["area"])
+    return found
+
+
+def read_hinges(document: Document, actuators: tuple[ActuatorTemplate, ...]) -> Mapping[str, UsualHinge]:
+    """Actuator → how its hinge usually moves. `TemplateError` for a name that is no actuator's with cylinders, or a
+    range without extent."""
+    known = {actuator.name for actuator in actuators if actuator.cylinders}
+    found = {}
+    for name, entry in document.data.items():
+        if name not in known:
+            raise TemplateError(
+                f"'{name}' is no actuator with cylinders",
+                where=document.at(name),
+                hint=near(name, known) or "Write the names of actuators, as in actuators.json.",
+            )
+        low, high = (math.radians(entry[end]) for end in ("low", "high"))
+        if low >= high:
+            raise TemplateError("The range is empty", where=document.at(name), hint="low is less than high, degrees.")
+        found[name] = UsualHinge(low, high, math.radians(entry["speed"]), entry["torque"])
     return found

@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import math
-from collections.abc import Iterator, Mapping
+from collections.abc import Callable, Collection, Iterator, Mapping
 from dataclasses import replace
 
 from yellowiron.mechanism.joints.frames import JointFrame
@@ -39,46 +39,54 @@ def with_direct_hinges(
     placement: Placement,
     standing: Mapping[str, str],
     findings: list[Finding],
-) -> tuple[Template, frozenset[str]]:
-    """The template with a hinge in the place of the cylinders of every actuator that has none in the CAD model, and the
-    names of those hinges. `standing` says of slides that were found why their cylinders cannot do it (MEC018).
+) -> tuple[Template, dict[str, str]]:
+    """The template with a hinge in the place of the cylinders of every actuator that has none in the CAD model, and
+    those hinges, each with its actuator. `standing` says of slides that were found why their cylinders cannot do it
+    (MEC018).
 
     The hinge is the one between the largest two bodies on any way from the barrel round to the rod, over the template's
     joints, that the CAD model has; one that another actuator's cylinders move is not taken.
     """
     claimed = {name for actuator in template.actuators for name in actuator.joints}
+
+    def size(body: str) -> float:
+        return placement.diagonal(placement.rows_of_body(body))
+
+    bodies = {name: frame.bodies for name, frame in frames.items()}
     actuators: list[ActuatorTemplate] = []
-    direct: list[str] = []
+    direct: dict[str, str] = {}
     for actuator in template.actuators:
-        hinge = _hinge(template, actuator, frames, placement, claimed) if actuator.cylinders else None
+        hinge = hinge_of(template, actuator, bodies, size, claimed) if actuator.cylinders else None
         if hinge is not None:
             claimed.add(hinge)
         wrong = {c.slide: standing[c.slide] for c in actuator.cylinders if c.slide in standing}
         whole = any({*c.joints} <= frames.keys() for c in actuator.cylinders)
         if hinge is not None and not whole:
-            findings.append(_told(actuator.name, hinge, next(iter(wrong.values()), None)))
-            direct.append(hinge)
+            usual = actuator.name in template.hinges
+            findings.append(_told(actuator.name, hinge, next(iter(wrong.values()), None), usual=usual))
+            direct[hinge] = actuator.name
             actuator = replace(actuator, kind="motor", cylinders=(), joints=(hinge,))
         elif whole:
             words = "Its cylinder does not work as it was found ({}): it stands as drawn."
             findings += [Finding("MEC018", "warning", slide, words.format(why), _PINS) for slide, why in wrong.items()]
         actuators.append(actuator)
     if not direct:
-        return template, frozenset()
+        return template, direct
     joints = tuple(replace(j, drive="angular") if j.name in direct else j for j in template.joints)
-    return replace(template, actuators=tuple(actuators), joints=joints), frozenset(direct)
+    return replace(template, actuators=tuple(actuators), joints=joints), direct
 
 
-def _told(actuator: str, hinge: str, reason: str | None) -> Finding:
+def _told(actuator: str, hinge: str, reason: str | None, *, usual: bool) -> Finding:
+    how = "directly, as far, fast and hard as is usual." if usual else "directly, with unlimited force."
     if reason is None:
-        words = f"The CAD model has none of its cylinders: '{hinge}' is driven directly, with unlimited force."
+        words = f"The CAD model has none of its cylinders: '{hinge}' is driven {how}"
         hint = "Give the hinge's Limit and max_force in a joints document (--data), or the cylinders in CAD."
         return Finding("MEC013", "warning", actuator, words, hint)
     words = f"Its cylinders do not work as they were found ({reason}): they stand as drawn, and '{hinge}' is driven "
-    return Finding("MEC018", "warning", actuator, words + "directly, with unlimited force.", _PINS)
+    return Finding("MEC018", "warning", actuator, words + how, _PINS)
 
 
-def direct_drives(direct: frozenset[str], frames: Mapping[str, JointFrame]) -> dict[str, Drive]:
+def direct_drives(direct: Collection[str], frames: Mapping[str, JointFrame]) -> dict[str, Drive]:
     """The position drives of hinges that are driven directly, by joint name."""
     drives = {}
     for name in sorted(direct):
@@ -93,20 +101,21 @@ def direct_drives(direct: frozenset[str], frames: Mapping[str, JointFrame]) -> d
     return drives
 
 
-def _hinge(
+def hinge_of(
     template: Template,
     actuator: ActuatorTemplate,
-    frames: Mapping[str, JointFrame],
-    placement: Placement,
-    claimed: set[str],
+    bodies: Mapping[str, tuple[str, str]],
+    size: Callable[[str], float],
+    claimed: Collection[str] = (),
 ) -> str | None:
+    """The hinge that an actuator's cylinders turn, of those that are there (joint → its `bodies`) and not `claimed`."""
     # What a barrel or a rod hangs on moves nothing but that.
-    own = {name for c in actuator.cylinders for name in c.pins}
+    own = {name for each in template.actuators for c in each.cylinders for name in c.pins}
     ways = sorted((way for c in actuator.cylinders for way in _ways(template, c)), key=len)
     names = dict.fromkeys(j.name for way in ways for j in way if j.type == "revolute")
-    fit = [name for name in names if name in frames and name not in claimed | own]
-    sizes = {b: placement.diagonal(placement.rows_of_body(b)) for name in fit for b in frames[name].bodies}
-    return max(fit, key=lambda name: min(sizes[b] for b in frames[name].bodies), default=None)
+    fit = [name for name in names if name in bodies and name not in own and name not in claimed]
+    sizes = {b: size(b) for name in fit for b in bodies[name]}
+    return max(fit, key=lambda name: min(sizes[b] for b in bodies[name]), default=None)
 
 
 def _ends(frames: Mapping[str, JointFrame], joint: str | None) -> tuple[str, ...]:

@@ -30,6 +30,9 @@ THICKNESS = (0.002, 0.02)
 """… and within which the machine's weight decides it: plates of small machines and of large ones."""
 _THIN = 1e-4
 """Least radius of gyration of a body along any axis, metres: an inertia of zero stops every engine."""
+_FLAT = 5e-7
+"""… and of its largest second moment, so that the principal moments of what is flat are possible ones in single
+precision too."""
 _PLAUSIBLE = (0.5, 2.0)
 """Factors to a published weight outside of this are a warning."""
 
@@ -61,7 +64,7 @@ class Moments:
     def inertia(self) -> Floats:
         """(3, 3) inertia about the centre of mass, kg·m²; always positive, and within the triangle inequality."""
         values, vectors = np.linalg.eigh(0.5 * (self.second + self.second.T))
-        floor = self.mass * _THIN**2
+        floor = max(self.mass * _THIN**2, _FLAT * float(values.max()))
         second = (vectors * np.maximum(values, floor)) @ vectors.T
         inertia = np.trace(second) * np.eye(3) - second
         return np.asarray(0.5 * (inertia + inertia.T), dtype=np.float64)
