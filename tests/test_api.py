@@ -14,6 +14,7 @@ import numpy as np
 import pytest
 
 import yellowiron as yi
+from yellowiron.model.errors import YellowironError
 
 VERBS = (
     "align", "build", "check", "convert", "export", "extract", "lint", "list_templates", "load_template", "measure",
@@ -67,3 +68,24 @@ def test_a_payload_is_any_number_of_kilograms(payload: float | str, monkeypatch:
     monkeypatch.setattr("yellowiron.simulation.suite.examine", examined)
     assert yi.simulate("loader.usda", payload=payload) == {}
     assert given == [250.0]
+
+
+def test_an_engine_that_fails_does_not_take_the_build_with_it(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
+    from kit.fleets import SETTINGS
+    from kit.small import write_small
+    from yellowiron import pipeline
+
+    def failing(*given: object) -> None:
+        raise YellowironError("The engine 'mujoco' took no step for 300 s", where="x", hint="Try another engine.")
+
+    monkeypatch.setattr(pipeline, "_driven", failing)
+    folder = write_small(tmp_path)
+    machine = pipeline.build(
+        folder / "type", folder / "small.glb", tmp_path / "out", settings=SETTINGS, engines=["mujoco"], page=False
+    )
+    (told,) = [f for f in machine.document["findings"] if f["code"] == "SIM010"]
+    assert (told["severity"], told["where"]) == ("error", "mujoco")
+    assert "took no step for 300 s: the machine was not driven there" in told["message"]
+    assert machine.usd.is_file() and machine.fell_short
+    with pytest.raises(YellowironError, match="There is no engine 'bullet'"):
+        pipeline.build(folder / "type", folder / "small.glb", tmp_path / "none", engines=["bullet"])

@@ -17,6 +17,8 @@ from yellowiron.inputs import checked_inputs
 from yellowiron.mechanism import declared_findings
 from yellowiron.model.alignment import Alignment
 from yellowiron.model.assembly import Assembly
+from yellowiron.model.errors import YellowironError
+from yellowiron.model.finding import Finding
 from yellowiron.model.mechanism import Measurement, Mechanism
 from yellowiron.model.specification import Specifications
 from yellowiron.model.sweep import Sweep
@@ -114,6 +116,7 @@ def build(
     """
     clock = _Clock(progress)
     cad_file, out = Path(cad_file), Path(out)
+    _known(engines)
     # Whatever can be said against an input is said before anything slow.
     inputs = checked_inputs(
         equipment_type, cad_file, out, sheets=[Path(s) for s in sheets],
@@ -164,18 +167,23 @@ def build(
             )
             written = folder / f"{mechanism.name}.usda"
 
-        simulation, sweeps = {}, {}
+        simulation, sweeps, stuck = {}, {}, []
         if engines:
             with clock.stage("simulate", "Driving the machine"):
                 for engine in engines:
-                    simulation[engine], sweeps[engine] = _driven(written, engine, progress)
+                    try:
+                        simulation[engine], sweeps[engine] = _driven(written, engine, progress)
+                    except YellowironError as error:
+                        # What an engine makes of it is no reason to lose the machine.
+                        words = f"{error.message}: the machine was not driven there."
+                        stuck.append(Finding("SIM010", "error", engine, words, error.hint))
 
         with clock.stage("report", "Writing the report"):
             document = memory.document(report.BuildFacts(
                 mechanism, template, alignment, specifications, measurements,
                 findings=(
                     *memory.lint(chosen), *assembly.findings, *data.findings,
-                    *declared_findings(compared, assembly.name), *checked,
+                    *declared_findings(compared, assembly.name), *checked, *stuck,
                 ),
                 usd_counts=usd_counts, colliders=colliders,
                 levers=memory.levers(mechanism),
@@ -217,6 +225,14 @@ def _place(path: Path | str) -> str:
 def _earlier(alignment_file: Path | str | None, left: Path) -> Path | None:
     """The alignment file that was asked for, else the one that an earlier run `left`, if it did."""
     return Path(alignment_file) if alignment_file else left if left.exists() else None
+
+
+def _known(engines: Sequence[str]) -> None:
+    if engines:
+        from yellowiron.simulation.registry import find_engine
+
+        for engine in engines:
+            find_engine(engine)
 
 
 def _driven(machine_file: Path, engine: str, progress: Progress) -> tuple[dict[str, Any], tuple[Sweep, ...]]:

@@ -77,3 +77,12 @@ def test_weight_is_the_force_of_virtual_work(mechanism: Mechanism) -> None:
     moment = 9.81 * boom.mass * (boom.center_of_mass[0] - boom_pin[0])
     own = 9.81 * (rod.mass + barrel.mass) * np.linalg.norm(rod_pin - barrel_pin)
     assert weight(chain, chain.drawn, "slide") == pytest.approx(moment / lever, abs=own)
+
+
+def test_a_target_creeps_on_where_no_force_moves_it() -> None:
+    """At a dead point the mass that a drive feels has no end: a build failed there, its way took for ever."""
+    dead = Pace(np.array([-1.0, 0.0, 1.0]), np.array([0.0, 0.0, 5.0]))
+    path = travel(-1.0, 1.0, 0.5, 1e-3, dead)
+    assert path[-1] == pytest.approx(1.0)
+    assert (np.diff(path) >= 0.0).all()
+    assert 4.0 < 1e-3 * len(path) < 120.0

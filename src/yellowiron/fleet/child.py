@@ -73,10 +73,7 @@ def build_item(item: Item, folder: Path, inputs: Path) -> Outcome:
 def _built(item: Item, folder: Path, inputs: Path) -> Outcome:
     import yellowiron
     from yellowiron.fleet.figures import figures_of
-    from yellowiron.simulation.registry import find_engine
 
-    for engine in item.engines:
-        find_engine(engine)
     here = {place: _here(place, inputs, number) for number, place in enumerate(item.inputs)}
     if item.variants is not None:
         from yellowiron.fleet.variants.parameters import read_parameters

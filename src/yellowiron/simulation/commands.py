@@ -27,6 +27,8 @@ CRAWL = 0.1
 """Share of its full speed at which a motor turns a wheel while the machine stands on the ground."""
 SWING = 0.25
 """Radians to either side by which a driven hinge without limits is turned."""
+_CREEPS = 1e-3
+"""The least share of the acceleration that `RAMP` allows."""
 _GRID = 1001
 _SAMPLE = 0.05
 """Seconds between two poses of a path that the kinematics is asked for."""
@@ -182,6 +184,8 @@ def travel(start: float, end: float, speed: float, timestep: float, pace: Pace |
     limits = np.full(_GRID, speed / RAMP)
     if pace is not None:
         limits = np.minimum(limits, np.interp(places, pace.places, pace.limits))
+    # At a dead point, where no force moves it, it creeps on.
+    limits = np.maximum(limits, _CREEPS * speed / RAMP)
     gain = 2.0 * step * 0.5 * (limits[1:] + limits[:-1])
     speeds = np.full(_GRID, speed)
     if pace is not None and pace.speeds is not None:
