@@ -162,6 +162,7 @@ TRUCK = (
 )  # fmt: skip
 """… and those of three others."""
 BUILDERS: dict[str, Callable[[Job], None]] = {
+    "aaronlachlan_forklift": one,
     "aik_forklift": one,
     "auwo_excavator": turned(urdf),
     "cat_390f_excavator": in_nodes(qml),
@@ -199,15 +200,20 @@ BUILDERS: dict[str, Callable[[Job], None]] = {
     "newton_excavator": turned(urdf),
     "niklaslidz_wheel_loader": turned(urdf),
     "octoman_excavator": one,
+    "octoman_forklift": one,
     "okkwok_by_material": one,
+    "omersaskan_forklift": one,
     "persimenreed_excavator": one,
     "pudong_excavator": turned(urdf),
+    "sarisman_excavator": one,
     "shebbyy_excavator": one,
     "simcity_excavator": one,
     "simcity_forklift": one,
     "simscape_backhoe_arm": in_nodes(instances),
     "simscape_excavator": many,
     "simscape_wheel_loader": many,
+    "slamjam_forklift": one,
+    "slamjam_skid_steer": one,
     "tobias_work_equipment": one,
     "trailer_wheel_loader": one,
     "valkoja_low_poly_full": in_blender(OPENED, "full"),
