@@ -171,6 +171,8 @@ BUILDERS: dict[str, Callable[[Job], None]] = {
     "dale8nson_excavator": one,
     "dexzt_forklift": one,
     "dozzer197_excavator": turned(xacro),
+    "dubinbin_mini_excavator": turned(urdf),
+    "erdogankir_excavator": turned(urdf),
     "fattahhanafi_excavator": turned(xacro),
     "fedem_wheel_loader": turned(ftl),
     "gaia_dump_truck": in_nodes(picked(*TRUCK)),
