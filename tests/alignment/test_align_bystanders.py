@@ -71,9 +71,7 @@ def test_what_hangs_with_another_body_than_it_touches_is_asked_about(
         "frame/plate": ("chassis", 0.9), "frame/side": ("chassis", 0.9), "frame/ram/tube": ("barrel", 0.9),
         "frame/ram/rod": ("barrel", 0.9), BRACKET: ("chassis", 0.9), **places,
     }  # fmt: skip
-    shapes = {
-        name: box(name, 1.0 + k, 1.0, 1.0) for k, name in enumerate(["bracket", "rod", "tube", "plate", "side"])
-    }
+    shapes = {name: box(name, 1.0 + k, 1.0, 1.0) for k, name in enumerate(["bracket", "rod", "tube", "plate", "side"])}
     parts = tuple(
         Part(id, id.split("/")[-1], ("world", *id.split("/")[:-1]), id.split("/")[-1], np.eye(4)) for id in placed
     )

@@ -23,7 +23,7 @@ from yellowiron.alignment.fusion import reading
 from yellowiron.alignment.fusion.annealing import Annealing, against, labelled, leads
 from yellowiron.alignment.fusion.bonds import ENOUGH, Bond, _kin, _together, _welded, out_of_line
 from yellowiron.alignment.fusion.judge import Field, field_of, score_of
-from yellowiron.alignment.fusion.pieces import Piece, leading
+from yellowiron.alignment.fusion.pieces import Piece, largeness, leading
 from yellowiron.alignment.fusion.played import beside_lost_arms
 from yellowiron.alignment.fusion.reading import CONTRARY, _one_name
 from yellowiron.alignment.fusion.stance import Stance, stance_of
@@ -63,6 +63,17 @@ def test_neighbours_tell_what_names_leave_open(excavator: Template) -> None:
     field = field_of(votes, [_bond(0, 1, hinge=True), _bond(1, 2, hinge=True)], excavator, weights())
     labels, _ = labelled(field)
     assert field.bodies[labels[1]] == "arm"
+
+
+def test_what_is_large_is_not_left_out_lightly(excavator: Template) -> None:
+    """A boom that only its place speaks against, a little, is the boom if it is large, and nothing if it is small."""
+    votes: list[dict[str, dict[str, float]]] = [{"upperstructure": {"said": 1.0}}, {"boom": {"place": 2.0}}]
+    for large, body in ((1.0, "boom"), (0.2, None)):
+        field = field_of(votes, [], excavator, weights(), large=np.array([1.0, large]))
+        labels, _ = labelled(field)
+        assert (*field.bodies, None)[labels[1]] == body
+    areas = [SimpleNamespace(area=a) for a in (4.0, 1.0)]
+    assert largeness(cast("list[Piece]", areas)).tolist() == [1.0, 0.5]
 
 
 def test_mirror_images_are_one_body_or_twins() -> None:
@@ -360,8 +371,8 @@ def test_contacts_that_explain_a_part_of_a_machine_give_way(
 
 @pytest.mark.slow
 def test_the_judge_begins_from_what_the_contacts_found(monkeypatch: pytest.MonkeyPatch) -> None:
-    """Where annealing comes by nothing at all, the judge has what the contacts found: it takes no reading that it judges
-    less well."""
+    """Where annealing comes by nothing at all, the judge has what the contacts found: it takes no reading that it
+    judges less well."""
     template = load_template("wheel_loader")
     assembly = drawn("loader", 3).assembly()
     search = Search(lambda contact: observe(assembly, template, contact), template, Specifications(), {}, {})

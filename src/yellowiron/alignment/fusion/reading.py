@@ -17,7 +17,7 @@ from yellowiron.alignment.fusion.annealing import CHAINS, HOT, SWEEPS, against, 
 from yellowiron.alignment.fusion.bonds import Bond, out_of_line
 from yellowiron.alignment.fusion.evidence import Evidence, evidence_of, ways_of
 from yellowiron.alignment.fusion.judge import Field, field_of, score_of, weighed
-from yellowiron.alignment.fusion.pieces import Piece
+from yellowiron.alignment.fusion.pieces import Piece, largeness
 from yellowiron.alignment.fusion.played import beside_lost_arms, drawn_bodies, lacks, missing_bodies
 from yellowiron.alignment.fusion.stance import Stance
 from yellowiron.alignment.fusion.votes import (
@@ -209,8 +209,9 @@ def _lacking(evidence: Evidence, bodies: Sequence[str], labels: np.ndarray, temp
 
 def _field(evidence: Evidence, votes: Votes, resolved: Template) -> Field:
     """The score of the leading pieces."""
-    lined = out_of_line([evidence.pieces[k] for k in evidence.leading])
-    return field_of([votes[k] for k in evidence.leading], evidence.between, resolved, weights(), lined)
+    pieces = [evidence.pieces[k] for k in evidence.leading]
+    told = [votes[k] for k in evidence.leading]
+    return field_of(told, evidence.between, resolved, weights(), out_of_line(pieces), largeness(pieces))
 
 
 def _labels_in(field: Field, other: _Best, leading: Sequence[int]) -> np.ndarray:

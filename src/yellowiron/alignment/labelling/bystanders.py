@@ -1,5 +1,5 @@
-"""What the scene's tree casts doubt on: other objects, which hang under a node of their own beside the node that has the
-machine, and parts that touch another body than what they hang with is of."""
+"""What the scene's tree casts doubt on: other objects, which hang under a node of their own beside the node that has
+the machine, and parts that touch another body than what they hang with is of."""
 
 from __future__ import annotations
 
@@ -53,8 +53,8 @@ def doubted(found: Alignment, parts: Sequence[Part]) -> Alignment:
 
 def among_strangers(places: Mapping[int, Place], solids: Sequence[Solid]) -> dict[int, Place]:
     """The places, solid → place, those doubtful that only what they are beside speaks for, where less than half of what
-    hangs under the same node is surely of that body: a bracket of a cylinder may touch the frame, too. For machines that
-    contacts did not find."""
+    hangs under the same node is surely of that body: a bracket of a cylinder may touch the frame, too. For machines
+    that contacts did not find."""
     surface: dict[tuple[str, ...], float] = {}
     agreed: dict[tuple[tuple[str, ...], str], float] = {}
     for solid in solids:
