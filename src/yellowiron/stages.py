@@ -132,7 +132,8 @@ def find_roles(
         kindless = {role.name for role in template.roles if role.rigid and not role.kind}
         ends = [set(template.bodies_of(joint)) for joint in template.joints]
         tools = {body for pair in ends if pair & arms for body in pair & kindless}
-        return len({part.body for part in alignment.parts} & (arms | tools)), len(unplayed(alignment) & (arms | tools))
+        played = {part.body for part in alignment.parts} - {*alignment.missing}
+        return len(played & (arms | tools)), len(unplayed(alignment) & (arms | tools))
 
     assembly = to_scale(assembly, template, specifications)
     if earlier is not None and (decisions != UNDECIDED or said_in(earlier, template)):
