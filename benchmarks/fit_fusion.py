@@ -47,6 +47,7 @@ from yellowiron.alignment.fusion.annealing import labelled  # noqa: E402
 from yellowiron.alignment.fusion.bonds import out_of_line  # noqa: E402
 from yellowiron.alignment.fusion.evidence import Evidence, evidence_of, ways_of  # noqa: E402
 from yellowiron.alignment.fusion.judge import Field, field_of, score_of, weighed  # noqa: E402
+from yellowiron.alignment.fusion.pieces import largeness  # noqa: E402
 from yellowiron.alignment.fusion.played import drawn_bodies, lacks  # noqa: E402
 from yellowiron.alignment.fusion.weights import weights  # noqa: E402
 from yellowiron.library import load_template  # noqa: E402
@@ -164,8 +165,8 @@ def _votes(way: Way) -> list[dict[str, Any]]:
 
 
 def _field(way: Way, votes: Sequence[Mapping[str, Any]], known: Mapping[str, float]) -> Field:
-    lined = out_of_line([way.evidence.pieces[k] for k in way.evidence.leading])
-    return field_of(votes, way.evidence.between, way.template, known, lined)
+    pieces = [way.evidence.pieces[k] for k in way.evidence.leading]
+    return field_of(votes, way.evidence.between, way.template, known, out_of_line(pieces), largeness(pieces))
 
 
 def _lacks(way: Way, labels: np.ndarray, bodies: tuple[str, ...]) -> Mapping[str, float]:

@@ -104,7 +104,8 @@ def mjcf(job: Job) -> Placed:
 
 def urdf(job: Job, description: str = ".urdf") -> Placed:
     """Meshes by a robot description with all joints at 0; a mesh that two links have is named by link, and last; the
-    parts of a DAE file by themselves."""
+    parts of a DAE file by themselves. Meshes that are not among the files (too large for the snapshot) are left out."""
+    there = {f.name for f in job.files}
     root = ET.fromstring(_expanded(job.file(description).read_text(encoding="utf-8")))
     joints = root.findall("joint")
     frames = dict.fromkeys({j.find("parent").get("link") for j in joints}, np.eye(4))
@@ -124,6 +125,7 @@ def urdf(job: Job, description: str = ".urdf") -> Placed:
         for link in root.findall("link")
         for visual in link.findall("visual")
         for mesh in visual.findall("geometry/mesh")
+        if Path(mesh.get("filename")).name in there
     ]
     uses = Counter(file for _, _, file in visuals)
     for link, origin, file in sorted(visuals, key=lambda visual: uses[visual[2]]):

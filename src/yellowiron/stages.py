@@ -125,13 +125,15 @@ def find_roles(
         """How many wheels are missing."""
         return sum(role.name in unplayed(alignment) for role in template.roles if role.kind == "wheel")
 
-    def limbs(alignment: Alignment) -> int:
-        """How many arms, links and tools are missing: they are drawn into others, which frames are too large for."""
+    def limbs(alignment: Alignment) -> tuple[int, int]:
+        """How many arms, links and tools are found, and missing: they are drawn into others, which frames are too large
+        for."""
         arms = {role.name for role in template.roles if role.kind == "arm"}
         kindless = {role.name for role in template.roles if role.rigid and not role.kind}
         ends = [set(template.bodies_of(joint)) for joint in template.joints]
         tools = {body for pair in ends if pair & arms for body in pair & kindless}
-        return len(unplayed(alignment) & (arms | tools))
+        played = {part.body for part in alignment.parts} - {*alignment.missing}
+        return len(played & (arms | tools)), len(unplayed(alignment) & (arms | tools))
 
     assembly = to_scale(assembly, template, specifications)
     if earlier is not None and (decisions != UNDECIDED or said_in(earlier, template)):
@@ -164,7 +166,9 @@ def find_roles(
         gained = pins & (set(best.missing) - set(other.missing))
         lost = pins & {str(part.role) for part in best.parts} & (set(other.missing) - set(best.missing))
         rolls = wheels(other) + 2 <= wheels(best)
-        limb = fewer and (limbs(other) < limbs(best) or rolls) and len(lost) <= len(gained)
+        (now, lacking), (before, lacked) = limbs(other), limbs(best)
+        # A variant that has more of them misses more, and finds no more for that.
+        limb = fewer and ((now > before and lacking < lacked) or rolls) and len(lost) <= len(gained)
         most = hidden(alignment) > len(moving) and hidden(other) < 0.5 * hidden(alignment)
         pinned = len(other.missing) < 0.5 * len(alignment.missing)
         if limb or ((fewer or best is alignment) and (most or pinned)):

@@ -10,6 +10,7 @@ import pytest
 from kit.machines.solids import Array, box, place
 from kit.machines.synthetic import Machine, disguise, loader
 from yellowiron.alignment import align
+from yellowiron.alignment.labelling.propagation import Propagation
 from yellowiron.library import load_template
 from yellowiron.model.alignment import Alignment, PartAssignment
 from yellowiron.model.assembly import Assembly
@@ -106,6 +107,24 @@ def test_a_crate_nearby(template: Template) -> None:
     found = align(machine.assembly(), template, NOTHING)
     assert found.to_review == (crate,)
     assert next(p for p in found.parts if p.part == crate).body is not None
+
+
+def test_what_floats_is_no_surer_than_what_it_floats_beside(
+    template: Template, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    machine = loader(3)
+    crate = beside(machine, 0.01)
+
+    def doubtful(self: Propagation) -> None:
+        self.places = {i: replace(place, confidence=0.3) for i, place in self.places.items()}
+
+    sure = align(machine.assembly(), template, NOTHING)
+    assert crate not in sure.to_review
+    monkeypatch.setattr(Propagation, "_torn", doubtful)
+    found = align(machine.assembly(), template, NOTHING)
+    mine = next(p for p in found.parts if p.part == crate)
+    assert mine.reason.startswith("floats")
+    assert crate in found.to_review
 
 
 def test_two_machines_side_by_side(template: Template) -> None:

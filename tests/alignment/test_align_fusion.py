@@ -17,17 +17,20 @@ from kit.machines.synthetic import disguise
 from kit.scene import scene
 from yellowiron.alignment import align
 from yellowiron.alignment.assignment.answer import Answer
+from yellowiron.alignment.assignment.search import Search
 from yellowiron.alignment.features.solids import size_of, solids_of
+from yellowiron.alignment.fusion import reading
 from yellowiron.alignment.fusion.annealing import Annealing, against, labelled, leads
 from yellowiron.alignment.fusion.bonds import ENOUGH, Bond, _kin, _together, _welded, out_of_line
-from yellowiron.alignment.fusion.judge import field_of, score_of
-from yellowiron.alignment.fusion.pieces import Piece, leading
+from yellowiron.alignment.fusion.judge import Field, field_of, score_of
+from yellowiron.alignment.fusion.pieces import Piece, largeness, leading
 from yellowiron.alignment.fusion.played import beside_lost_arms
 from yellowiron.alignment.fusion.reading import CONTRARY, _one_name
 from yellowiron.alignment.fusion.stance import Stance, stance_of
 from yellowiron.alignment.fusion.votes import LENT, borrowed
 from yellowiron.alignment.fusion.weights import weights
 from yellowiron.alignment.pipeline import _Judged
+from yellowiron.alignment.structure.observation import observe
 from yellowiron.library import load_template
 from yellowiron.model.specification import Specifications
 from yellowiron.model.template import Template, choose
@@ -60,6 +63,17 @@ def test_neighbours_tell_what_names_leave_open(excavator: Template) -> None:
     field = field_of(votes, [_bond(0, 1, hinge=True), _bond(1, 2, hinge=True)], excavator, weights())
     labels, _ = labelled(field)
     assert field.bodies[labels[1]] == "arm"
+
+
+def test_what_is_large_is_not_left_out_lightly(excavator: Template) -> None:
+    """A boom that only its place speaks against, a little, is the boom if it is large, and nothing if it is small."""
+    votes: list[dict[str, dict[str, float]]] = [{"upperstructure": {"said": 1.0}}, {"boom": {"place": 2.0}}]
+    for large, body in ((1.0, "boom"), (0.2, None)):
+        field = field_of(votes, [], excavator, weights(), large=np.array([1.0, large]))
+        labels, _ = labelled(field)
+        assert (*field.bodies, None)[labels[1]] == body
+    areas = [SimpleNamespace(area=a) for a in (4.0, 1.0)]
+    assert largeness(cast("list[Piece]", areas)).tolist() == [1.0, 0.5]
 
 
 def test_mirror_images_are_one_body_or_twins() -> None:
@@ -353,3 +367,25 @@ def test_contacts_that_explain_a_part_of_a_machine_give_way(
     """To names where the judge finds them better, without names only where it finds another reading better by far."""
     judged = _Judged(cast("Answer", None), None, 0.5, 1000.0, contacts)
     assert judged.goes_before(held=held, named=named) is before
+
+
+@pytest.mark.slow
+def test_the_judge_begins_from_what_the_contacts_found(monkeypatch: pytest.MonkeyPatch) -> None:
+    """Where annealing comes by nothing at all, the judge has what the contacts found: it takes no reading that it
+    judges less well."""
+    template = load_template("wheel_loader")
+    assembly = drawn("loader", 3).assembly()
+    search = Search(lambda contact: observe(assembly, template, contact), template, Specifications(), {}, {})
+    answer, observation, _ = search.run()
+    anneal = reading.labelled
+
+    def lost(field: Field, start: Any = None, **how: Any) -> Any:
+        labels = np.full(len(field.unary), len(field.bodies))
+        return anneal(field, start, sweeps=0, chains=1) if start is not None and start.any() else (labels, 0.0)
+
+    monkeypatch.setattr(reading, "labelled", lost)
+    nothing = [dict[str, float]() for _ in observation.solids]
+    found = reading.fused(observation, template, [dict(answer.choices)], nothing, answer, {})
+    assert found.score >= found.contacts > 0.0
+    played = set(found.answer.solution.body_of.values())
+    assert {"rear_frame", "front_frame", "boom", "bucket"} <= played

@@ -178,3 +178,26 @@ def test_a_merged_mesh_is_taken_apart_where_that_finds_most_of_what_is_missing(
     monkeypatch.setattr(stages, "kept", lambda *_: pieces)
     model, _ = stages.find_roles(machine, template, Specifications())
     assert (model is pieces) is taken
+
+
+@pytest.mark.parametrize(("found_too", "taken"), [((), False), (("arm",), True)])
+def test_a_variant_with_fewer_limbs_finds_none(
+    found_too: tuple[str, ...], taken: bool, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    """As drawn it is read as of two booms, of which one is missing, in pieces as of one: that is no limb found."""
+    machine = drawn("excavator", 3).assembly()
+    pieces = replace(machine, name="pieces")
+    template = load_template("excavator")
+    found = align(machine, template, Specifications())
+    missing = ("arm", "boom_pin", "arm_pin")
+
+    def told(model: Assembly, *_: object, **__: object) -> Alignment:
+        if model is pieces:
+            left = ("adjust_boom", *(name for name in missing if name not in found_too))
+            return replace(found, choices={**found.choices, "boom_type": "mono"}, missing=left)
+        return replace(found, choices={**found.choices, "boom_type": "two_piece"}, missing=(*missing, "adjust_boom"))
+
+    monkeypatch.setattr(stages, "_roles_of_whole", told)
+    monkeypatch.setattr(stages, "kept", lambda *_: pieces)
+    model, _ = stages.find_roles(machine, template, Specifications())
+    assert (model is pieces) is taken

@@ -90,6 +90,7 @@ def test_concepts(template: Template, name: str, said: set[str]) -> None:
         ("Gegengewicht", {"upperstructure"}),
         ("发动机", {"upperstructure"}),
         ("blade", {"blade"}),
+        ("Bulldozer.001", {"blade"}),
         ("sprocet", {"sprocket"}),
         ("L\u00f6ffelstiel", {"arm"}),
         ("Stielzylinder", {"arm", "cylinder"}),

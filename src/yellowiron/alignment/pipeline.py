@@ -45,7 +45,7 @@ from yellowiron.alignment.features.tracks import Track, tracks_of
 from yellowiron.alignment.files.decisions import decided
 from yellowiron.alignment.files.heard import heard_of_whole, unlikely
 from yellowiron.alignment.fusion.reading import AS_GOOD, fused
-from yellowiron.alignment.labelling.bystanders import doubted
+from yellowiron.alignment.labelling.bystanders import among_strangers, doubted
 from yellowiron.alignment.labelling.coupler import with_couplers
 from yellowiron.alignment.labelling.fittings import fittings_of, sitting
 from yellowiron.alignment.labelling.place import pin_role
@@ -170,6 +170,7 @@ def align(
     )
     places = with_couplers(propagation.run(), observation.solids, answer)
     places = with_rams(places, observation, answer, frame)
+    places = among_strangers(places, observation.solids) if answer.judged is not None else places
     apart |= {observation.solids[i].part.id: metres for i, metres in propagation.apart.items()}
     by_id = {observation.solids[i].part.id: place for i, place in places.items()}
     whole = as_drawn(choose(template, answer.choices), set(answer.solution.body_of.values()))

@@ -98,14 +98,16 @@ def field_of(
     template: Template,
     weights: Features,
     astray: NDArray[np.bool_] | None = None,
+    large: Floats | None = None,
 ) -> Field:
     """The score of a machine's pieces under a resolved template. `votes`: by piece, the bodies it can be; `astray`:
-    (pieces, pieces) whether two are not in line (`bonds.out_of_line`)."""
+    (pieces, pieces) whether two are not in line (`bonds.out_of_line`); `large`: (pieces,) how large each is
+    (`pieces.largeness`): what is large is not left out lightly."""
     bodies = tuple(r.name for r in template.roles if r.rigid)
     at = {b: k for k, b in enumerate(bodies)}
     none = len(bodies)
     unary = np.full((len(votes), none + 1), NEVER)
-    unary[:, none] = 0.0
+    unary[:, none] = 0.0 if large is None else weights["left out"] * large
     for p, mine in enumerate(votes):
         for body, features in mine.items():
             unary[p, at[body]] = weighed(features, weights)

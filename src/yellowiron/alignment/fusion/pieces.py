@@ -3,7 +3,7 @@ cylinder, a wheel, a ring in its bore."""
 
 from __future__ import annotations
 
-from collections.abc import Mapping
+from collections.abc import Mapping, Sequence
 from dataclasses import dataclass
 
 import numpy as np
@@ -112,6 +112,12 @@ def _principal(own: list[Solid]) -> tuple[Floats, float]:
     values, vectors = np.linalg.eigh(moments)
     flat = float(np.sqrt(max(values[1], 0.0) / max(values[0], 1e-300)))
     return np.asarray(vectors.T[::-1], dtype=np.float64), flat
+
+
+def largeness(pieces: Sequence[Piece]) -> Floats:
+    """(pieces,) the root of what each piece's surface is of the largest one's, 0 to 1."""
+    areas = np.array([p.area for p in pieces], dtype=np.float64)
+    return np.asarray(np.sqrt(areas / max(float(areas.max(initial=0.0)), 1e-300)))
 
 
 def leading(pieces: tuple[Piece, ...], size: float, said: Mapping[int, str]) -> list[int]:

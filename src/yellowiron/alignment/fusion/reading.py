@@ -17,7 +17,7 @@ from yellowiron.alignment.fusion.annealing import CHAINS, HOT, SWEEPS, against, 
 from yellowiron.alignment.fusion.bonds import Bond, out_of_line
 from yellowiron.alignment.fusion.evidence import Evidence, evidence_of, ways_of
 from yellowiron.alignment.fusion.judge import Field, field_of, score_of, weighed
-from yellowiron.alignment.fusion.pieces import Piece
+from yellowiron.alignment.fusion.pieces import Piece, largeness
 from yellowiron.alignment.fusion.played import beside_lost_arms, drawn_bodies, lacks, missing_bodies
 from yellowiron.alignment.fusion.stance import Stance
 from yellowiron.alignment.fusion.votes import (
@@ -140,6 +140,14 @@ def fused(
     likely += [tried(b.choices, drawn, evidence) for b, drawn in bare if drawn is not b.template]
     best = max(likely, key=lambda b: b.score)
     best = tried(best.choices, best.template, evidence, chains=MANY)
+    told, way = max(((_of_contacts(answer, way), way) for way in ways), key=lambda one: one[0].score)
+    if told.score > best.score:
+        # Annealing did not come by what the contacts found, or at a glance the machine stood otherwise.
+        turned = way.stance.rotation[0] @ evidence.stance.rotation[0] < 0.0
+        ahead = told.score - best.score if turned else ahead
+        warmed = tried(told.choices, told.template, way, WARM, start=told)
+        best, evidence = max(told, warmed, key=lambda b: b.score), way
+        likely.append(best)
     if more := _between_found(best, evidence):
         # What is small is added to the machine that was found: alone it could outweigh what leads.
         wider = replace(evidence, leading=tuple(sorted({*evidence.leading, *more})))
@@ -147,19 +155,19 @@ def fused(
         evidence = wider
     tried_so = [(b.choices, b.score) for b in likely]
     as_good = open_choices(best.choices, tried_so, max(b.score for b in likely) - AS_GOOD)
-    contacts = max(_score_of_contacts(answer, way) for way in ways)
+    contacts = max(_unsaid(_of_contacts(answer, way), way) for way in ways)
     pieces, trust = evidence.pieces, evidence.trust
     judged = _judged(best, evidence)
     judged = {i: what for i, what in judged.items() if not _is_pin(i, what, observation, best.template)}
     judged |= _by_name_alone(observation, pieces, scores, trust, judged)
     judged = judged or _all_root(pieces, best.template)
     answer = replace(_answer(observation, best, judged, answer, evidence.stance), open_choices=as_good)
-    score = best.score - _said(evidence, best.votes, best.field.bodies, best.labels)
-    return Fused(answer, evidence.stance, trust, score, contacts, ahead)
+    return Fused(answer, evidence.stance, trust, _unsaid(best, evidence), contacts, ahead)
 
 
-def _score_of_contacts(answer: Answer, evidence: Evidence) -> float:
-    """What the judge makes of the bodies that the contacts alone gave; a piece is of the body that most of it is of."""
+def _of_contacts(answer: Answer, evidence: Evidence) -> _Best:
+    """The labelling that the contacts alone gave, as the judge scores it; a piece is of the body that most of it is
+    of."""
     template = answer.template
     votes = evidence.votes(template)
     field = _field(evidence, votes, template)
@@ -178,7 +186,12 @@ def _score_of_contacts(answer: Answer, evidence: Evidence) -> float:
         counts = np.bincount(known, minlength=none + 1)
         labels[n] = int(np.argmax(counts))
     score = score_of(field, labels) + _lacking(evidence, field.bodies, labels, template)
-    return score - _said(evidence, votes, field.bodies, labels)
+    return _Best(score, dict(answer.choices), template, field, labels, votes, evidence.leading)
+
+
+def _unsaid(best: _Best, evidence: Evidence) -> float:
+    """What a labelling scores without what a person said."""
+    return best.score - _said(evidence, best.votes, best.field.bodies, best.labels)
 
 
 def _said(evidence: Evidence, votes: Votes, bodies: Sequence[str], labels: np.ndarray) -> float:
@@ -196,8 +209,9 @@ def _lacking(evidence: Evidence, bodies: Sequence[str], labels: np.ndarray, temp
 
 def _field(evidence: Evidence, votes: Votes, resolved: Template) -> Field:
     """The score of the leading pieces."""
-    lined = out_of_line([evidence.pieces[k] for k in evidence.leading])
-    return field_of([votes[k] for k in evidence.leading], evidence.between, resolved, weights(), lined)
+    pieces = [evidence.pieces[k] for k in evidence.leading]
+    told = [votes[k] for k in evidence.leading]
+    return field_of(told, evidence.between, resolved, weights(), out_of_line(pieces), largeness(pieces))
 
 
 def _labels_in(field: Field, other: _Best, leading: Sequence[int]) -> np.ndarray:

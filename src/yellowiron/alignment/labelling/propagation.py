@@ -380,6 +380,7 @@ class Propagation:
         size = float(np.linalg.norm(high.max(axis=0) - low.min(axis=0)))
         reach = NEIGHBOURHOOD * size
         far: dict[str, float] = {}
+        sure: dict[str, float] = {}
         for i in group:
             s = self.solids[i]
             gap = np.linalg.norm(np.maximum(0, np.maximum(low - s.high, s.low - high)), axis=1)
@@ -388,7 +389,9 @@ class Propagation:
                 j = placed[int(k)]
                 body = self.places[j].body
                 if gap[k] < far.get(body, np.inf):
-                    far[body] = min(far.get(body, np.inf), self.touch.distance(min(i, j), max(i, j)))
+                    metres = self.touch.distance(min(i, j), max(i, j))
+                    if metres < far.get(body, np.inf):
+                        far[body], sure[body] = metres, self.places[j].confidence
         if not far:
             return True
         if min(far.values()) > FAR * size:
@@ -407,7 +410,8 @@ class Propagation:
         weight = {b: w * (1 + 3 * names[b]) for b, w in weight.items()}
         ranked = sorted(weight, key=lambda b: (-round(weight[b], 9), b))
         rival = weight[ranked[1]] / weight[ranked[0]] if len(ranked) > 1 else 0.0
-        confidence = 0.45 + 0.45 * (1 - rival)
+        # What floats is no surer than what it floats beside.
+        confidence = min(0.45 + 0.45 * (1 - rival), sure[ranked[0]])
         surface = sum(self.solids[i].surface for i in group)
         large = surface > LARGE * sum(s.surface for s in self.solids)
         if large or (far[ranked[0]] > CLOSE * size and not self._borne(group, ranked[0])):
