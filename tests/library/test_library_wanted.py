@@ -20,7 +20,7 @@ from yellowiron.support.units import SI_UNIT
 
 LANGUAGES = {"en", "de", "fr", "es", "zh", "ja"}
 TYPES = library.list_templates()
-SHEET_ONLY = {"grader", "mobile_crane"}
+SHEET_ONLY = {"mobile_crane"}
 
 
 def test_which_types_there_are() -> None:
@@ -28,6 +28,7 @@ def test_which_types_there_are() -> None:
         "articulated_dump_truck",
         "backhoe_loader",
         "dozer",
+        "grader",
         "rigid_dump_truck",
         "roller",
         "wheel_loader",
