@@ -126,28 +126,30 @@ def draw_cylinder(c: Cylinder, pin_fast_in_rod: bool = False) -> Assembly:
 def draw_hung_cylinder(c: Cylinder, ball_radius: float, *, collar: float = 0.0) -> Assembly:
     """A cylinder with a socket for a ball stud of that radius at its rod's end, drawn like `draw_cylinder`; at the other
     end another, or, with a `collar` of a radius, a ball around the tube at the origin, which sits in a socket of what
-    carries it: `base` is then negative. Tags are "barrel" and "rod", and the collar's role "collar"."""
-    tree = Assembly(c.name)
-    tree.add(_tube(c), "barrel")
+    carries it: `base` is then negative. Bodies are tagged as there."""
+    tree, tube = Assembly(c.name), _tube(c)
     if collar:
-        ring_ball = cut(ball((0, 0, 0), collar), rod((-2 * collar, 0, 0), X, c.outside / 2, 4 * collar))
-        tree.add(Part(f"{c.name} TRUNNION BALL", ring_ball, STEEL), "barrel", "collar")
-    else:
-        tree.add(Part(f"{c.name} BRL SOCKET", _socket(c, ball_radius, c.base - c.cap), c.colour), "barrel")
+        grown = fuse(tube.shape, cut(ball((0, 0, 0), collar), rod((-2 * collar, 0, 0), X, c.bore / 2, 4 * collar)))
+        tube = Part(f"{c.name} TUBE", grown, c.colour)
+    tree.add(tube, "barrel")
+    if not collar:
+        tree.add(Part(f"{c.name} BRL SOCKET", _socket(c, ball_radius, c.base - c.cap, 0.7 * c.eye), c.colour), "barrel")
     tree.add(_gland(c), "barrel")
     for part in _rod_and_piston(c):
         tree.add(part, "rod")
-    tree.add(Part(f"{c.name} ROD SOCKET", _socket(c, ball_radius, 0.0), c.colour), "rod", at=shift(c.drawn))
+    shape = _socket(c, ball_radius, -0.8 * c.eye, 0.5 * c.rod + 8.0)
+    tree.add(Part(f"{c.name} ROD SOCKET", shape, c.colour), "rod", at=shift(c.drawn))
     return tree
 
 
-def _socket(c: Cylinder, radius: float, to: float) -> TopoDS_Shape:
-    """A block around a ball at the origin, open to the sides for its stud (which comes along y), with a neck."""
-    shape = rod((0, -c.eye_width / 2, 0), Y, c.eye, c.eye_width)
-    if to:
-        shape = fuse(shape, rod((0, 0, 0), X, 0.7 * c.eye, to))
-    else:
-        shape = fuse(shape, rod((-c.eye - 14.0, 0, 0), X, 0.5 * c.rod + 8.0, c.eye))
+def _socket(c: Cylinder, radius: float, to: float, neck: float) -> TopoDS_Shape:
+    """A block around a ball at the origin, open to the sides for its stud (which comes along y); its neck, of that
+    radius, ends at `to`."""
+    along = X if to > 0.0 else (-1.0, 0.0, 0.0)
+    shape = fuse(rod((0, -c.eye_width / 2, 0), Y, c.eye, c.eye_width), rod((0, 0, 0), along, neck, abs(to)))
+    far = max(abs(to), c.eye) + 1.0
+    if abs(to) < c.eye:  # the rod ends in the block
+        shape = cut(shape, box(-far, to, -neck - 20, neck + 20, -neck - 20, neck + 20))
     shape = cut(shape, ball((0, 0, 0), radius + PIN_CLEARANCE))
     return bored(shape, Y, ((0, 0, 0), 0.62 * radius))
 

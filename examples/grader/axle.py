@@ -27,7 +27,7 @@ from .linkage import (
     Linkage,
 )
 
-OSCILLATION_Z = 660.0
+OSCILLATION_Z = 720.0
 PIN_OSCILLATION, PIN_LEAN, PIN_KING, PIN_TIE, PIN_STEER, PIN_LEANER, PIN_BAR = 80.0, 60.0, 60.0, 34.0, 36.0, 38.0, 36.0
 """Diameters."""
 SPINDLE = 62.0
@@ -58,11 +58,12 @@ def _pair(tree: Assembly, name: str, shape: TopoDS_Shape, body: str) -> None:
 def draw_axle(k: Linkage, hardware: Assembly) -> Assembly:
     """Everything but wheels and cylinders."""
     tree, x = Assembly("FRONT AXLE ASSY"), AXLE_X
-    beam = fuse(box(x - 75, x + 75, -570, 570, 470, 600), rod((x - 75, 0, OSCILLATION_Z), X, 105, 150))
-    tree.add(Part("AXLE BEAM", bored(beam, X, ((0, 0, OSCILLATION_Z), PIN_OSCILLATION / 2 + CLEARANCE)), GREY), BODY)
-    fork = [plate([(LEAN_Y, LEAN_Z, 62), (520, 600, 0), (520, 470, 0)], "yz", x + a, x + a + 35) for a in (-92.0, 57.0)]
-    lugs = fuse(*(cut(each, box(x - 75, x + 75, 0, 570, 470, 600)) for each in fork))
-    _pair(tree, "AXLE FORK", bored(lugs, X, ((0, LEAN_Y, LEAN_Z), PIN_LEAN / 2)), BODY)
+    beam = fuse(box(x - 75, x + 75, -570, 570, 470, 600), box(x - 75, x + 75, -90, 90, 600, OSCILLATION_Z), rod((x - 75, 0, OSCILLATION_Z), X, 90, 150))
+    tree.add(Part("AXLE BEAM", bored(beam, X, ((x, 0, OSCILLATION_Z), PIN_OSCILLATION / 2 + CLEARANCE)), GREY), BODY)
+    for name, start in (("FRT", 57.0), ("RR", -92.0)):
+        fork = plate([(LEAN_Y, LEAN_Z, 62), (520, 600, 0), (520, 470, 0)], "yz", x + start, x + start + 35)
+        fork = cut(fork, box(x - 75, x + 75, 0, 570, 470, 600))
+        _pair(tree, f"AXLE FORK {name}", bored(fork, X, ((x, LEAN_Y, LEAN_Z), PIN_LEAN / 2)), BODY)
     _level(hardware, (x, 0, OSCILLATION_Z), PIN_OSCILLATION, 165.0, "front_frame", f"{BODY}_pin")
     # The yoke: a hub on the lean pin, a post up to bar and cylinder, two plates for the kingpin.
     hub = rod((x - 52, LEAN_Y, LEAN_Z), X, 60, 104)
@@ -71,12 +72,12 @@ def draw_axle(k: Linkage, hardware: Assembly) -> Assembly:
         plate([(x, KING_Y, 60), (x - 52, LEAN_Y, 0), (x + 52, LEAN_Y, 0)], "xy", z, z + 36) for z in (474.0, 714.0)
     ]
     yoke = fuse(hub, post, *plates)
-    yoke = bored(yoke, X, ((0, LEAN_Y, LEAN_Z), PIN_LEAN / 2 + CLEARANCE))
+    yoke = bored(yoke, X, ((x, LEAN_Y, LEAN_Z), PIN_LEAN / 2 + CLEARANCE))
     ahead = rod((x - 200, LEAN_Y, BAR_Z), X, PIN_BAR / 2, 400)
     yoke = bored(cut(yoke, ahead), Z, ((x, KING_Y, 0), PIN_KING / 2))
     _pair(tree, "LEAN YOKE", yoke, "lean_yoke_{}")
     bar = plate([(LEAN_Y, BAR_Z, 36), (-LEAN_Y, BAR_Z, 36)], "yz", x + EYE_AHEAD - 18, x + EYE_AHEAD + 18)
-    bar = bored(bar, X, *(((0, sign * LEAN_Y, BAR_Z), PIN_BAR / 2 + CLEARANCE) for sign in (1.0, -1.0)))
+    bar = bored(bar, X, *(((x, sign * LEAN_Y, BAR_Z), PIN_BAR / 2 + CLEARANCE) for sign in (1.0, -1.0)))
     tree.add(Part("LEANING BAR", bar, GREY), "leaning_bar")
     _cylinder_lug(tree, k)
     _knuckles(tree, k)
@@ -90,12 +91,12 @@ def _cylinder_lug(tree: Assembly, k: Linkage) -> None:
     cheeks = [plate([(LEAN_FOOT_Y, z, 36), (LEAN_FOOT_Y - 50, 600, 0), (LEAN_FOOT_Y + 50, 600, 0)], "yz", x + a, x + a + 14)
               for a in (-37.0, 23.0)]  # fmt: skip
     foot = fuse(box(x - 37, x + 37, LEAN_FOOT_Y - 50, LEAN_FOOT_Y + 50, 600, 612), *cheeks)
-    tree.add(Part("LEAN CYL LUG", bored(foot, X, ((0, LEAN_FOOT_Y, z), PIN_LEANER / 2)), GREY), BODY)
+    tree.add(Part("LEAN CYL LUG", bored(foot, X, ((x, LEAN_FOOT_Y, z), PIN_LEANER / 2)), GREY), BODY)
     ears = [plate([(LEAN_Y, LEAN_EYE_Z, 36), (LEAN_Y + 30, 760, 0), (LEAN_Y + 52, 800, 0)], "yz", x + a, x + a + 14)
             for a in (-37.0, 23.0)]  # fmt: skip
     back = box(x - 37, AXLE_X - 42, LEAN_Y + 38, LEAN_Y + 54, 760, 880)
     ear = fuse(back, *ears)
-    tree.add(Part("LEAN ROD LUG", bored(ear, X, ((0, LEAN_Y, LEAN_EYE_Z), PIN_LEANER / 2)), YELLOW), "lean_yoke_l")
+    tree.add(Part("LEAN ROD LUG", bored(ear, X, ((x, LEAN_Y, LEAN_EYE_Z), PIN_LEANER / 2)), YELLOW), "lean_yoke_l")
     fx, fy = AXLE_X + float(STEER_FOOT[0]), KING_Y + float(STEER_FOOT[1])
     cheeks = [plate([(fx, fy, 34), (AXLE_X - 75, fy - 40, 0), (AXLE_X - 75, fy + 60, 0)], "xy", z0, z0 + 14)
               for z0 in (STEER_Z - 37.0, STEER_Z + 23.0)]  # fmt: skip

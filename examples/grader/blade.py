@@ -20,6 +20,8 @@ LIFT_BALL, CENTRE_BALL, COLLAR, NOSE_BALL = 55.0, 48.0, 110.0, 70.0
 """Radii: of the studs' balls, of the ball around a lift cylinder, of the drawbar's at the nose."""
 PIN_SADDLE, PIN_CARRIER, PIN_TIP = 90.0, 70.0, 45.0
 """Diameters."""
+BOSS = 75.0
+"""Radius of the saddle's boss."""
 TABLE = (780.0, 840.0)
 """Underside and top of the drawbar's plate over the circle."""
 RING = (640.0, v.CIRCLE_DIAMETER.value / 2, 690.0, 765.0)
@@ -28,7 +30,7 @@ ARM = (505.0, 545.0)
 """The circle's arms across."""
 CHEEK = (440.0, 480.0)
 """The carrier's cheeks across."""
-SHIFT_AT = (2_555.0, 320.0)
+SHIFT_AT = (2_540.0, 320.0)
 """x and z of the side shift cylinder."""
 HALF = v.BLADE_LENGTH.value / 2
 
@@ -46,18 +48,19 @@ def draw_saddle(hardware: Assembly) -> Assembly:
     tree, body = Assembly("SADDLE ASSY"), "saddle"
     x, _, z = (float(c) for c in SADDLE)
     fx, fy, fz = (float(c) for c in LIFT_FOOT)
-    boss = bored(rod((x - 60, 0, z), X, 110, 260), X, ((0, 0, z), PIN_SADDLE / 2 + CLEARANCE))
+    boss = bored(rod((x - 60, 0, z), X, BOSS, 260), X, ((0, 0, z), PIN_SADDLE / 2 + CLEARANCE))
     tree.add(Part("SADDLE BOSS", boss), body)
-    arm = plate([(0, z, 100), (fy - 120, fz - 10, 55)], "yz", fx - 40, fx + 40)
-    arm = cut(arm, rod((x - 300, 0, z), X, 110, 600))
-    block = cut(box(fx - 150, fx + 150, fy - 150, fy + 150, fz - 58, fz + 58), ball((fx, fy, fz), COLLAR + CLEARANCE))
-    arm = cut(arm, box(fx - 150, fx + 150, fy - 150, fy + 150, fz - 58, fz + 58))
+    around = rod((x - 300, 0, z), X, BOSS, 600)
+    block = box(fx - 150, fx + 150, fy - 150, fy + 150, fz - 58, fz + 58)
+    arm = cut(plate([(0, z, 68), (fy - 190, fz - 10, 55)], "yz", fx - 40, fx + 40), around, block)
+    block = cut(block, ball((fx, fy, fz), COLLAR + CLEARANCE))
     for name, shape in (("SADDLE ARM", arm), ("LIFT SOCKET", block)):
         tree.add(Part(f"{name} LH", shape), body)
         tree.add(Part(f"{name} RH", mirrored(shape)), body)
     cx, cy, cz = (float(c) for c in CENTRE_FOOT)
-    lug = plate([(0, z, 100), (cy, cz, 48)], "yz", cx - 100, cx - 60)
-    lug = cut(lug, rod((x - 300, 0, z), X, 110, 600))
+    knee = (-330.0, z, 60.0)
+    lug = fuse(*(plate([one, two], "yz", cx - 100, cx - 60) for one, two in (((0, z, 68), knee), (knee, (cy, cz, 48)))))
+    lug = cut(lug, around)
     tree.add(Part("CENTER SHIFT LUG", bored(lug, X, ((0, cy, cz), 0.45 * CENTRE_BALL))), body)
     stud(hardware, (cx, cy, cz), X, CENTRE_BALL, 105.0, body, "centre_shift_cylinder_barrel_pin")
     return tree
@@ -90,8 +93,7 @@ def draw_drawbar(k: Linkage, down: float, hardware: Assembly) -> Assembly:
     d, body = Drawer("DRAWBAR ASSY", hardware, down), "drawbar"
     nx, _, nz = (float(c) for c in NOSE)
     hollow = ball((nx, 0, nz), NOSE_BALL + CLEARANCE)
-    d.put("DRAWBAR NOSE", cut(box(nx - 150, nx, -105, 105, nz - 105, nz + 105), hollow), body)
-    d.put("NOSE CAP", cut(box(nx, nx + 36, -105, 105, nz - 105, nz + 105), hollow), body, GREY)
+    d.put("DRAWBAR NOSE", cut(box(nx - 150, nx + 36, -105, 105, nz - 105, nz + 105), hollow), body)
     arm = plate([(nx - 150, 20, 0), (nx - 150, 105, 0), (3_340, 610, 0), (3_340, 490, 0)], "xy", TABLE[1], nz + 60)
     d.pair("DRAWBAR ARM", arm, body)
     table = box(2_060, 3_400, -620, 620, *TABLE)
@@ -99,7 +101,7 @@ def draw_drawbar(k: Linkage, down: float, hardware: Assembly) -> Assembly:
     cx = float(CIRCLE[0])
     guide = ring((cx, 0, RING[2] - 5), Z, RING[0] - CLEARANCE, 560, TABLE[0] - RING[2] + 5)
     d.put("CIRCLE GUIDE RING", guide, body, STEEL, "circle_bearing")
-    d.put("CIRCLE RETAINER", ring((cx, 0, RING[2] - 35), Z, 690, 560, 29), body, GREY)
+    d.put("CIRCLE RETAINER", ring((cx, 0, RING[2] - 35), Z, 658, 560, 30), body, GREY)
     lx, ly, lz = (float(c) for c in k.lift_eye)
     bracket = bored(box(lx - 55, lx + 55, 560, ly - 60, TABLE[1], lz + 40), Y, ((lx, 0, lz), 0.45 * LIFT_BALL))
     d.pair("LIFT BRKT", bracket, body)
@@ -120,8 +122,9 @@ def draw_circle(k: Linkage, down: float, hardware: Assembly) -> Assembly:
     inner, outside, low, high = RING
     d.put("CIRCLE RING", ring((float(CIRCLE[0]), 0, low), Z, outside, inner, high - low), body)
     px, pz = (float(c) for c in TIP_PIVOT)
-    arm = plate([(2_330, low, 0), (2_150, low, 0), (2_160, 600, 0), (px - 30, pz - 40, 45), (px + 20, pz, 70)], "xz",
+    leg = plate([(2_262, low, 0), (2_170, low, 0), (2_330, pz - 50, 0), (2_440, pz - 50, 0), (2_440, pz + 68, 0)], "xz",
                 *ARM)  # fmt: skip
+    arm = fuse(leg, plate([(2_400, pz, 50), (px, pz, 68)], "xz", *ARM))
     d.pair("CIRCLE ARM", bored(arm, Y, ((px, 0, pz), PIN_CARRIER / 2)), body)
     fx, fz = (float(c) for c in TIP_FOOT)
     cheeks = [plate([(fx, fz, 38), (fx + 40, low, 0), (fx - 40, low, 0)], "xz", y, y + 14) for y in (-39.0, 25.0)]
@@ -135,9 +138,9 @@ def draw_circle(k: Linkage, down: float, hardware: Assembly) -> Assembly:
 
 def side_ram() -> Ram:
     """Sizes of the side shift cylinder, drawn with the blade in the middle."""
-    feet = [box(-70, -40, -30, 30, at, at + 40) for at in (300.0, 1_150.0)]
+    feet = [box(-70, -30, -30, 30, at, at + 40) for at in (300.0, 1_150.0)]
     return Ram(
-        "SIDE SHIFT CYL", v.SIDE_BORE.value, v.SIDE_ROD.value, v.SIDE_STROKE.value, v.SHIFT_RIGHT.value, 90.0, 1_380.0,
+        "SIDE SHIFT CYL", v.SIDE_BORE.value, v.SIDE_ROD.value, v.SIDE_STROKE.value, v.SHIFT_RIGHT.value, 78.0, 1_380.0,
         base=30.0, piston=45.0, gland=45.0, lugs=fuse(*feet),
     )  # fmt: skip
 
@@ -150,7 +153,7 @@ def draw_carrier(k: Linkage, down: float, hardware: Assembly) -> Assembly:
     sx, sz = SHIFT_AT
     cheek = plate([(px, pz, 75), (2_590, 95, 0), (2_590, 455, 0), (2_440, 455, 0)], "xz", *CHEEK)
     cheek = cut(cheek, box(2_573, 2_620, 0, 700, 108, 172), box(2_573, 2_620, 0, 700, 388, 442))
-    cheek = bored(cheek, Y, ((px, 0, pz), PIN_CARRIER / 2 + CLEARANCE), ((sx, 0, sz), 62.0))
+    cheek = bored(cheek, Y, ((px, 0, pz), PIN_CARRIER / 2 + CLEARANCE), ((sx, 0, sz), 46.0))
     d.pair("CARRIER CHEEK", cheek, body)
     d.put("CARRIER TUBE", box(px - 40, px + 40, -CHEEK[0], CHEEK[0], pz - 40, pz + 40), body)
     ex, ez = px + float(k.tip_eye[0]), pz + float(k.tip_eye[1])
@@ -159,7 +162,7 @@ def draw_carrier(k: Linkage, down: float, hardware: Assembly) -> Assembly:
         d.put(f"TIP ROD LUG {name}", bored(lug, Y, ((ex, 0, ez), PIN_TIP / 2)), body)
     d.pin(ex, ez, (-45, 45), PIN_TIP, body, "blade_tip_piston_rod_pin")
     for y in (-428.0, 422.0):
-        d.put("RAM FOOT", box(2_440, sx - 70, y - 12, y + 18, sz - 30, sz + 30), body)
+        d.put("RAM FOOT", box(2_440, sx - 70, y - 12, y + 18, sz - 60, sz + 50), body)
     names = {
         "barrel": body,
         "rod": "moldboard",
@@ -180,23 +183,27 @@ def draw_moldboard(down: float) -> Assembly:
     def on(r: float, z: float) -> tuple[float, float]:
         return (middle[0] - math.sqrt(r**2 - (z - middle[1]) ** 2), z)
 
-    low = 90.0
-    face = [(on(radius, high), on(radius, 0.5 * (high + low)), on(radius, low))]
-    back = [(on(radius + thick, low), on(radius + thick, 0.5 * (high + low)), on(radius + thick, high))]
-    path = [*face, (face[0][2], back[0][0]), *back, (back[0][2], face[0][0])]
+    # The lower end of the face lies on the edge's back, the plate's own back on the rails.
+    flat = ((EDGE_X - 92, 160.0), (EDGE_X - 64, 90.0))
+    face = (on(radius, high), on(radius, 0.5 * (high + 180.0)), on(radius, 180.0))
+    back = [flat[1], (EDGE_X - 64 - thick, 90.0), (2_600.0, 118.0), (2_600.0, 432.0), on(radius + thick, high)]
+    corners = [face[2], *flat[:1], *back, face[0]]
+    path = [face, *zip(corners, corners[1:], strict=False)]
     d.put("MOLDBOARD PL", prism(path, "xz", -HALF + 12, HALF - 12), body)
+    side = HALF - 12
     for name, z0, z1 in (("LWR", 115.0, 165.0), ("UPR", 395.0, 435.0)):
-        d.put(f"SLIDE RAIL {name}", box(2_580, 2_600, -HALF + 300, HALF - 300, z0, z1), body, STEEL)
-        for y in (-1_400.0, -900.0, 860.0, 1_360.0):
-            d.put("RAIL SPACER", box(2_600, on(radius + thick, z0)[0] + 6, y, y + 40, z0, z1), body)
+        d.put(f"SLIDE RAIL {name}", box(2_580, 2_600, -side, side, z0, z1), body, STEEL)
     edge = [(EDGE_X, 0, 0.0), (EDGE_X - 66, 160, 0.0), (EDGE_X - 92, 160, 0.0), (EDGE_X - 28, 0, 0.0)]
-    d.put("CUTTING EDGE", plate(edge, "xz", -HALF + 160, HALF - 160), body, STEEL, "cutting_edge")
+    d.put("CUTTING EDGE", plate(edge, "xz", -side + 160, side - 160), body, STEEL, "cutting_edge")
     for letter, sign in (("l", 1.0), ("r", -1.0)):
-        bit = plate(edge, "xz", *((HALF - 160, HALF) if sign > 0 else (-HALF, -HALF + 160)))
+        bit = plate(edge, "xz", *((side - 160, side) if sign > 0 else (-side, -side + 160)))
         d.put(f"END BIT {letter.upper()}H", bit, body, STEEL, f"end_bit_{letter}")
+    gusset = [(EDGE_X - 28, 0, 0.0), (EDGE_X, 0, 0.0), (EDGE_X - 62, 160, 0.0), (EDGE_X - 95, 300, 0.0),
+              (EDGE_X, high, 0.0), (EDGE_X - 60, high, 0.0), (2_575, 440, 0.0), (2_575, 110, 0.0)]  # fmt: skip
+    d.pair("MOLDBOARD END PL", plate(gusset, "xz", side, HALF), body)
     sx, sz = SHIFT_AT
     end = -740.0 + side_ram().long + v.SHIFT_RIGHT.value
-    lug = box(sx - 60, 2_622, end, end + 30, sz - 60, sz + 60)
+    lug = box(sx - 60, 2_600, end, end + 30, 172.0, 388.0)
     d.put("SIDE SHIFT LUG", lug, body)
     return d.tree
 

@@ -78,8 +78,7 @@ def _put(tree: Assembly, child: Assembly, name: str, start: Array, end: Array, a
     """A cylinder from one point to another, its pins or studs along `across`."""
     along = end - start
     up = np.cross(along, across)
-    halves = {"barrel": f"{name}_cylinder_barrel{side}", "rod": f"{name}_piston_rod{side}",
-              "collar": f"{name}_gimbal{side}_pin"}  # fmt: skip
+    halves = {"barrel": f"{name}_cylinder_barrel{side}", "rod": f"{name}_piston_rod{side}"}
     tree.uses.append(Use(child, frame(three(start), three(along), three(up)), names=halves))
 
 

@@ -35,7 +35,7 @@ from .linkage import (
 FRONT, REAR = "front_frame", "rear_frame"
 PIN_HITCH, PIN_BEND, PIN_TANDEM, PIN_RIPPER, PIN_RIP = 110.0, 50.0, 150.0, 80.0, 50.0
 """Diameters."""
-BEND_Z = 1_130.0
+BEND_Z = 1_040.0
 """Height of the articulation's cylinders."""
 FORK = ((880.0, 940.0), (1_260.0, 1_320.0))
 """Heights of the rear frame's plates on the articulation's pin."""
@@ -54,18 +54,19 @@ BEAM = 150.0
 def draw_front(hardware: Assembly) -> Assembly:
     """The main beam with its nose, push plate, the lugs of saddle, axle and drawbar, the articulation's half."""
     tree = Assembly("FRONT FRAME WELDMENT")
-    beam = plate([(190, 950, 0), (1_750, 950, 0), (2_300, 1_480, 0), (4_250, 1_480, 0), (4_950, 1_010, 0),
+    beam = plate([(190, 950, 0), (1_750, 950, 0), (2_300, 1_560, 0), (4_200, 1_560, 0), (4_950, 1_010, 0),
                   (5_700, 1_010, 0), (5_700, 1_300, 0), (5_050, 1_300, 0), (4_400, 1_800, 0), (2_200, 1_800, 0),
                   (1_500, 1_360, 0), (190, 1_360, 0)], "xz", -BEAM, BEAM)  # fmt: skip
     tree.add(Part("MAIN BEAM", beam), FRONT)
     plate_low = box(5_700, PUSH_X, -330, 330, 640, 1_300)
     tree.add(Part("PUSH PLATE", plate_low, BLACK), FRONT)
     for name, x in (("FRT", AXLE_X + 105), ("RR", AXLE_X - 150)):
-        shape = box(x, x + 45, -110, 110, OSCILLATION_Z - 90, 1_010)
-        tree.add(Part(f"AXLE LUG {name}", bored(shape, X, ((0, 0, OSCILLATION_Z), PIN_OSCILLATION / 2))), FRONT)
+        shape = box(x, x + 45, -90, 90, OSCILLATION_Z - 70, 1_010)
+        tree.add(Part(f"AXLE LUG {name}", bored(shape, X, ((x, 0, OSCILLATION_Z), PIN_OSCILLATION / 2))), FRONT)
     nx, _, nz = (float(c) for c in NOSE)
-    tree.add(Part("DRAWBAR LUG", box(nx + 100, nx + 170, -90, 90, nz - 90, 1_015)), FRONT)
-    stud(hardware, (nx, 0, nz), (-1.0, 0.0, 0.0), NOSE_BALL, 100.0, FRONT, "drawbar_ball_pin")
+    lug = bored(box(nx + 180, nx + 240, -90, 90, nz - 90, 1_010), X, ((nx, 0, nz), 0.45 * NOSE_BALL))
+    tree.add(Part("DRAWBAR LUG", lug), FRONT)
+    stud(hardware, (nx, 0, nz), (-1.0, 0.0, 0.0), NOSE_BALL, 240.0, FRONT, "drawbar_ball_pin")
     sx, _, sz = (float(c) for c in SADDLE)
     for name, x in (("RR", sx - 130), ("FRT", sx + 210)):
         lug = plate([(0, sz, 90), (-BEAM, 1_800, 0), (BEAM, 1_800, 0)], "yz", x, x + 60)
@@ -73,13 +74,13 @@ def draw_front(hardware: Assembly) -> Assembly:
     # The articulation: two forks about the rear frame's plates, ears for the barrels.
     for name, (z0, z1) in zip(("LWR", "UPR"), FORK, strict=True):
         for part, start in (("A", z0 - 50), ("B", z1 + 10)):
-            fork = plate([(0, 0, 120), (200, -200, 0), (200, 200, 0)], "xy", start, start + 40)
+            fork = plate([(0, 0, 120), (150, -200, 0), (150, 200, 0)], "xy", start, start + 40)
             tree.add(Part(f"HITCH FORK {name} {part}", bored(fork, Z, ((0, 0, 0), PIN_HITCH / 2))), FRONT)
         fit_pin(hardware, (0, 0, z0 - 50), PIN_HITCH, z1 - z0 + 100, FRONT, "articulation_pin", upright=True)
-    tree.add(Part("HITCH WALL", box(190, 230, -420, 420, 800, 1_400)), FRONT)
+    tree.add(Part("HITCH WALL", box(150, 190, -320, 320, 800, 1_400)), FRONT)
     px, py = (float(c) for c in solve_bend().P)
     for name, start in EARS:
-        ear = plate([(px, py, 50), (px + 90, BEAM, 0), (px - 120, BEAM, 0)], "xy", start, start + 30)
+        ear = plate([(px, py, 50), (px - 120, BEAM, 0), (px + 90, BEAM, 0)], "xy", start, start + 30)
         add_pair(tree, f"ARTIC CYL EAR {name}", bored(ear, Z, ((px, py, 0), PIN_BEND / 2)), FRONT)
     for letter, sign in (("l", 1.0), ("r", -1.0)):
         role = f"articulation_cylinder_barrel_{letter}_pin"
@@ -130,12 +131,15 @@ def draw_rear(hardware: Assembly) -> Assembly:
     for name, start in EARS:
         ear = plate([(qx, qy, 50), (qx - 120, 420, 0), (qx + 10, 420, 0)], "xy", start, start + 30)
         add_pair(tree, f"ARTIC ROD EAR {name}", bored(ear, Z, ((qx, qy, 0), PIN_BEND / 2)), REAR)
+    for letter, sign in (("l", 1.0), ("r", -1.0)):
+        role = f"articulation_piston_rod_{letter}_pin"
+        fit_pin(hardware, (qx, sign * qy, BEND_Z - 78), PIN_BEND, 156, REAR, role, upright=True)
     ball_radius = RADIUS - v.GROUND_CLEARANCE.value
     case = fuse(rod((TANDEM_X, -CASE[0] + 20, RADIUS), Y, 150, 2 * CASE[0] - 40),
                 rod((TANDEM_X, -180, RADIUS), Y, ball_radius, 360))  # fmt: skip
-    put("AXLE HOUSING", case, GREY)
-    add_pair(tree, "AXLE PAD", box(TANDEM_X - 160, TANDEM_X + 160, 340, 420, RADIUS + 100, 900), REAR, GREY)
-    put("ENGINE", sheet_box(-2_500, -1_100, -330, 330, 1_150, 1_900, 30.0), GREY)
+    pads = [box(TANDEM_X - 140, TANDEM_X + 140, y, y + 80, RADIUS, 900) for y in (340.0, -420.0)]
+    put("AXLE HOUSING", bored(fuse(case, *pads), Y, ((TANDEM_X, 0, RADIUS), PIN_TANDEM / 2)), GREY)
+    put("ENGINE", sheet_box(-2_500, -1_100, -370, 370, 1_150, 1_900, 30.0), GREY)
     hood = cut(box(-2_880, -900, -480, 480, 1_150, 2_250), box(-2_872, -908, -472, 472, 1_140, 2_242))
     put("ENGINE HOOD", hood)
     put("RADIATOR", box(-2_840, -2_720, -440, 440, 1_150, 2_150), BLACK)
@@ -212,6 +216,6 @@ def sizes(k: Linkage, ripper: float) -> dict[str, Cylinder]:
         ),
         "ripper": Cylinder(
             "RIPPER CYL", v.RIPPER_BORE.value, v.RIPPER_ROD.value, v.RIPPER_STROKE.value, k.ripper_closed, ripper,
-            outside=108, pin=PIN_RIP, eye=42, eye_width=56, base=72, cap=22, piston=42, gland=46, port=10.0,
+            outside=108, pin=PIN_RIP, eye=42, eye_width=56, base=100, cap=22, piston=42, gland=46, port=10.0,
         ),
     }  # fmt: skip

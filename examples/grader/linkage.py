@@ -32,7 +32,7 @@ SADDLE = np.array([2_950.0, 0.0, 1_880.0])
 """Where the saddle turns, lengthwise."""
 LIFT_FOOT = np.array([2_950.0, 620.0, 2_200.0])
 LIFT_Y, LIFT_Z = 850.0, 920.0
-CENTRE_FOOT = np.array([3_150.0, -560.0, 1_700.0])
+CENTRE_FOOT, CENTRE_Z = np.array([3_150.0, -560.0, 1_640.0]), 965.0
 CIRCLE = np.array([2_700.0, 0.0, 760.0])
 EDGE_X = 2_740.0
 CORNER = np.array([EDGE_X, v.BLADE_LENGTH.value / 2, 0.0])
@@ -53,7 +53,7 @@ STEER_Z, TIE_Z = 600.0, 495.0
 
 # ---- ripper --------
 RIPPER_PIVOT = np.array([-2_700.0, 640.0])
-RIPPER_FOOT = np.array([-3_020.0, 1_400.0])
+RIPPER_FOOT = np.array([-3_070.0, 1_400.0])
 RIPPER_TIP = np.array([-3_800.0, 0.0])
 """x and z, the tip on the ground."""
 RIPPER_EYE_Z, RIPPER_RAISED = 780.0, 250.0
@@ -202,10 +202,10 @@ def solve() -> Linkage:
     lift_eye = np.array([float(x), LIFT_Y, LIFT_Z])
 
     def reach(eye_y: float) -> float:
-        eye = np.array([CENTRE_FOOT[0], eye_y, LIFT_Z])
+        eye = np.array([CENTRE_FOOT[0], eye_y, CENTRE_Z])
         return shoulder(eye, float(np.linalg.norm(eye - CENTRE_FOOT)) + v.CENTRE_STROKE.value / 2) - v.SHOULDER.value
 
-    centre_eye = np.array([CENTRE_FOOT[0], float(brentq(reach, 400.0, 700.0, xtol=1e-12)), LIFT_Z])
+    centre_eye = np.array([CENTRE_FOOT[0], float(brentq(reach, 400.0, 700.0, xtol=1e-12)), CENTRE_Z])
     centre_closed = float(np.linalg.norm(centre_eye - CENTRE_FOOT)) - v.CENTRE_STROKE.value / 2
 
     def tip(height: float) -> float:
