@@ -14,7 +14,7 @@ from drawing.product import GREY, STEEL, YELLOW, Assembly, Colour, Part, Use
 from drawing.solids import X, Y, Z, ball, bored, box, cut, fuse, mirrored, plate, prism, ring, rod, shift, turn
 
 from . import values as v
-from .linkage import CENTRE_FOOT, CIRCLE, EDGE_X, LIFT_FOOT, NOSE, SADDLE, TIP_FOOT, TIP_PIVOT, Linkage
+from .linkage import BACK, CENTRE_FOOT, CIRCLE, EDGE_X, LIFT_FOOT, NOSE, SADDLE, TIP_FOOT, TIP_PIVOT, Linkage
 
 LIFT_BALL, CENTRE_BALL, COLLAR, NOSE_BALL = 55.0, 48.0, 110.0, 70.0
 """Radii: of the studs' balls, of the ball around a lift cylinder, of the drawbar's at the nose."""
@@ -199,7 +199,7 @@ def draw_moldboard(down: float) -> Assembly:
         bit = plate(edge, "xz", *((side - 160, side) if sign > 0 else (-side, -side + 160)))
         d.put(f"END BIT {letter.upper()}H", bit, body, STEEL, f"end_bit_{letter}")
     gusset = [(EDGE_X - 28, 0, 0.0), (EDGE_X, 0, 0.0), (EDGE_X - 62, 160, 0.0), (EDGE_X - 95, 300, 0.0),
-              (EDGE_X, high, 0.0), (EDGE_X - 60, high, 0.0), (2_575, 440, 0.0), (2_575, 110, 0.0)]  # fmt: skip
+              (EDGE_X, high, 0.0), (EDGE_X - 60, high, 0.0), *((x, z, 0.0) for x, z in reversed(BACK))]  # fmt: skip
     d.pair("MOLDBOARD END PL", plate(gusset, "xz", side, HALF), body)
     sx, sz = SHIFT_AT
     end = -740.0 + side_ram().long + v.SHIFT_RIGHT.value

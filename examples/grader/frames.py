@@ -25,10 +25,13 @@ from .linkage import (
     REAR_X,
     RIPPER_FOOT,
     RIPPER_PIVOT,
+    RIPPER_RAISED,
     RIPPER_TIP,
     SADDLE,
     TANDEM_X,
     Linkage,
+    rip_for,
+    ripped,
     solve_bend,
 )
 
@@ -42,8 +45,8 @@ FORK = ((880.0, 940.0), (1_260.0, 1_320.0))
 EARS = (("LWR", BEND_Z - 72.0), ("UPR", BEND_Z + 42.0))
 CASE = (560.0, 700.0)
 """The tandems' cases across."""
-TAIL_X = -4_000.0
-"""The rearmost point, the ripper's."""
+TAIL_X = float(ripped(rip_for(RIPPER_RAISED), RIPPER_TIP)[0])
+"""The rearmost point, the ripper's tips as drawn."""
 PUSH_X = v.LENGTH.value + TAIL_X
 """The foremost, the push plate's."""
 RIP_Y = 260.0
@@ -180,8 +183,7 @@ def draw_ripper(k: Linkage, up: float, hardware: Assembly) -> Assembly:
     px, pz = (float(c) for c in RIPPER_PIVOT)
     at = turn(Y, math.degrees(up), (px, 0, pz))
     (ex, ez), (tx, tz), low = (float(c) for c in k.ripper_eye), (float(c) for c in RIPPER_TIP), 560.0
-    # The beam's lower rear edge is the rearmost of the machine, as drawn.
-    back = px + (TAIL_X - px - (low - pz) * math.sin(up)) / math.cos(up)
+    back = tx - 80.0
     outline = [(px, pz, 62), (ex, ez, 48), (back + 200, 700, 0), (back + 200, low, 0)]
     arm = plate(outline, "xz", RIP_Y - 22, RIP_Y + 22)
     arm = bored(arm, Y, ((px, 0, pz), PIN_RIPPER / 2 + CLEARANCE))
@@ -193,7 +195,7 @@ def draw_ripper(k: Linkage, up: float, hardware: Assembly) -> Assembly:
     for name, shape in (("LH", eye), ("RH", mirrored(eye))):
         tree.add(Part(f"RIPPER ARM {name}", shape), body, at=at)
     tree.add(Part("RIPPER BEAM", box(back, back + 200, -900, 900, low, 700)), body, at=at)
-    shank = [(tx, tz, 0), (tx - 20, 300, 0), (back + 170, low, 0), (back + 50, low, 0), (back + 60, 300, 0)]
+    shank = [(tx, tz, 0), (tx + 60, 300, 0), (back + 180, low, 0), (back + 50, low, 0), (tx - 50, 300, 0)]
     for number, y in enumerate((-750.0, -25.0, 700.0), 1):
         tree.add(Part("RIPPER SHANK", plate(shank, "xz", y, y + 50), STEEL), body, f"ripper_shank_{number}", at)
     for letter, sign in (("l", 1.0), ("r", -1.0)):

@@ -32,10 +32,13 @@ SADDLE = np.array([2_950.0, 0.0, 1_880.0])
 """Where the saddle turns, lengthwise."""
 LIFT_FOOT = np.array([2_950.0, 620.0, 2_200.0])
 LIFT_Y, LIFT_Z = 850.0, 920.0
-CENTRE_FOOT, CENTRE_Z = np.array([3_150.0, -560.0, 1_640.0]), 965.0
+CENTRE_FOOT, CENTRE_Z, CENTRE_OUT = np.array([3_150.0, -700.0, 1_300.0]), 965.0, 0.3
+"""The centre shift cylinder: its foot, its eye's height, and how far it is out, as a share of its stroke."""
 CIRCLE = np.array([2_700.0, 0.0, 760.0])
 EDGE_X = 2_740.0
 CORNER = np.array([EDGE_X, v.BLADE_LENGTH.value / 2, 0.0])
+BACK = ((2_575.0, 110.0), (2_575.0, 440.0))
+"""x and z of the moldboard's rear corners."""
 RAISED = 150.0
 """How high the edge is drawn."""
 HOLE = math.radians(48.0)
@@ -44,12 +47,13 @@ TIP_PIVOT, TIP_FOOT = np.array([2_500.0, 200.0]), np.array([1_985.0, 590.0])
 """x and z: where the blade's carrier turns on the circle, and the foot of its cylinder."""
 
 # ---- front axle --------
-KING_Y, LEAN_Y, LEAN_Z = 760.0, 640.0, 540.0
+KING_Y, LEAN_Y, LEAN_Z = 760.0, 640.0, 600.0
 BAR_Z, LEAN_EYE_Z, LEAN_FOOT_Y = 900.0, 860.0, 150.0
 TIE = np.array([-260.0, -32.0])
 """From the left kingpin to the tie rod's end, x and y."""
 STEER_FOOT = np.array([-230.0, 60.0 - KING_Y])
-STEER_Z, TIE_Z = 600.0, 495.0
+STEER_Z, TIE_Z = LEAN_Z, 495.0
+"""The steering cylinders' eyes are as high as the pins that the wheels lean about: leaning steers little."""
 
 # ---- ripper --------
 RIPPER_PIVOT = np.array([-2_700.0, 640.0])
@@ -203,10 +207,10 @@ def solve() -> Linkage:
 
     def reach(eye_y: float) -> float:
         eye = np.array([CENTRE_FOOT[0], eye_y, CENTRE_Z])
-        return shoulder(eye, float(np.linalg.norm(eye - CENTRE_FOOT)) + v.CENTRE_STROKE.value / 2) - v.SHOULDER.value
+        return shoulder(eye, float(np.linalg.norm(eye - CENTRE_FOOT)) + (1.0 - CENTRE_OUT) * v.CENTRE_STROKE.value) - v.SHOULDER.value
 
     centre_eye = np.array([CENTRE_FOOT[0], float(brentq(reach, 400.0, 700.0, xtol=1e-12)), CENTRE_Z])
-    centre_closed = float(np.linalg.norm(centre_eye - CENTRE_FOOT)) - v.CENTRE_STROKE.value / 2
+    centre_closed = float(np.linalg.norm(centre_eye - CENTRE_FOOT)) - CENTRE_OUT * v.CENTRE_STROKE.value
 
     def tip(height: float) -> float:
         made = [
@@ -255,8 +259,7 @@ def shoulder(centre_eye: Array, length: float) -> float:
         ]
 
     matrix = np.array(Rotation.from_rotvec(fsolve(gaps, [0.0, 0.0, -0.2], xtol=1e-13)).as_matrix())
-    top = np.array([0.0, 0.0, v.BLADE_HEIGHT.value])
-    far = max(float(place(matrix, end + up)[1]) for end in ends for up in (0.0 * top, top))
+    far = max(float(place(matrix, np.array([x, ends[0][1], z]))[1]) for x, z in BACK)
     return far - v.WIDTH.value / 2
 
 

@@ -12,8 +12,10 @@ from drawing.sheet_print import (
     HEIGHT,
     MARGIN,
     SECOND,
+    Line,
     cylinder_table,
     heading,
+    lines,
     opening,
     value_lines,
     write_pages,
@@ -31,7 +33,9 @@ SOURCE = (
 def _first(c: Canvas) -> None:
     x, top = MARGIN, opening(c, TITLE, SOURCE)
     y = heading(c, x, top, "Weights", HALF)
-    y = value_lines(c, x, y, (("Operating weight, typically equipped", v.OPERATING_WEIGHT),))
+    weight = v.OPERATING_WEIGHT.value
+    cells = f"{weight:,.0f} kg", f"{weight / 0.45359237:,.0f} lb"
+    y = lines(c, x, y, (Line("Operating weight, typically equipped", cells),), HALF)
     y = heading(c, x, y, "Hydraulic system", HALF)
     y = value_lines(c, x, y, (("Pump flow", v.FLOW), ("Main relief pressure", v.PRESSURE)))
     y = heading(c, x, y, "Power train", HALF)
@@ -54,7 +58,7 @@ def _first(c: Canvas) -> None:
     y = value_lines(c, x, y, (
         ("Maximum lift above ground", v.BLADE_LIFT), ("Maximum depth of cut", v.DEPTH_OF_CUT),
         ("Blade side shift, left", v.SHIFT_LEFT), ("Blade side shift, right", v.SHIFT_RIGHT),
-        ("Maximum shoulder reach outside of tires", v.SHOULDER), ("Bank cut angle, maximum", v.BANK_CUT),
+        ("Shoulder reach outside tires", v.SHOULDER), ("Bank cut angle, maximum", v.BANK_CUT),
         ("Blade tip angle, forward", v.TIP_FORWARD), ("Blade tip angle, backward", v.TIP_BACK),
         ("Circle rotation", v.CIRCLE_TURN), ("Circle diameter", v.CIRCLE_DIAMETER),
     ))  # fmt: skip
