@@ -67,7 +67,7 @@ def draw_axle(k: Linkage, hardware: Assembly) -> Assembly:
     _level(hardware, (x, 0, OSCILLATION_Z), PIN_OSCILLATION, 165.0, "front_frame", f"{BODY}_pin")
     # The yoke: a hub on the lean pin, a post up to bar and cylinder, two plates for the kingpin.
     hub = rod((x - 52, LEAN_Y, LEAN_Z), X, 60, 104)
-    post = plate([(LEAN_Y, BAR_Z, 42), (LEAN_Y, LEAN_Z, 55)], "yz", x - 42, x + 42)
+    post = plate([(LEAN_Y, BAR_Z, 42), (LEAN_Y, 530, 55)], "yz", x - 42, x + 42)
     plates = [
         plate([(x, KING_Y, 60), (x - 52, LEAN_Y, 0), (x + 52, LEAN_Y, 0)], "xy", z, z + 36) for z in (474.0, 714.0)
     ]

@@ -112,7 +112,7 @@ def draw_drawbar(k: Linkage, down: float, hardware: Assembly) -> Assembly:
     lug = plate([(sy, sz, 48), (sy - 90, TABLE[1], 0), (sy + 60, TABLE[1], 0)], "yz", sx - 100, sx - 60)
     d.put("CENTER SHIFT LUG", bored(lug, X, ((0, sy, sz), 0.45 * CENTRE_BALL)), body)
     stud(hardware, (sx, sy, sz), X, CENTRE_BALL, 105.0, body, "centre_shift_piston_rod_pin", d.at)
-    d.put("CIRCLE MOTOR", rod((3_300, 0, TABLE[1]), Z, 120, 230), body, GREY)
+    d.put("CIRCLE MOTOR", rod((2_190, 0, TABLE[1]), Z, 110, 230), body, GREY)
     return d.tree
 
 

@@ -235,7 +235,7 @@ def solve() -> Linkage:
         ends = [float(np.linalg.norm(ripped(angle, eye) - RIPPER_FOOT)) for angle in (up, down)]
         return [ends[0] - free[1], ends[1] - free[1] - v.RIPPER_STROKE.value]
 
-    rx, ripper_closed = fsolve(ripper, [-3_250.0, 450.0], xtol=1e-14)
+    rx, ripper_closed = fsolve(ripper, [-3_250.0, 450.0], xtol=1e-12)
     long = float(brentq(steer, 180.0, 300.0, xtol=1e-13))
     return Linkage(
         lift_eye, float(closed), centre_eye, centre_closed,
