@@ -143,15 +143,15 @@ def draw_hung_cylinder(c: Cylinder, ball_radius: float, *, collar: float = 0.0) 
 
 
 def _socket(c: Cylinder, radius: float, to: float, neck: float) -> TopoDS_Shape:
-    """A block around a ball at the origin, open to the sides for its stud (which comes along y); its neck, of that
-    radius, ends at `to`."""
+    """A block around a ball at the origin, open for its stud, which comes along +y; its neck, of that radius, ends at
+    `to`."""
     along = X if to > 0.0 else (-1.0, 0.0, 0.0)
-    shape = fuse(rod((0, -c.eye_width / 2, 0), Y, c.eye, c.eye_width), rod((0, 0, 0), along, neck, abs(to)))
+    shape = fuse(rod((0, -c.eye_width / 2, 0), Y, c.eye, c.eye_width + radius / 2), rod((0, 0, 0), along, neck, abs(to)))
     far = max(abs(to), c.eye) + 1.0
     if abs(to) < c.eye:  # the rod ends in the block
         shape = cut(shape, box(-far, to, -neck - 20, neck + 20, -neck - 20, neck + 20))
     shape = cut(shape, ball((0, 0, 0), radius + PIN_CLEARANCE))
-    return bored(shape, Y, ((0, 0, 0), 0.62 * radius))
+    return cut(shape, rod((0, -2.0 * radius, 0), Y, 0.62 * radius, 2.0 * radius))
 
 
 def put_pair(tree: Assembly, cylinder: Assembly, name: str, start: Vector, end: Vector) -> None:

@@ -89,7 +89,7 @@ def draw_cylinders() -> Assembly:
     steer = draw_cylinder(sizes["steer"])
     for side, sign in (("_l", 1.0), ("_r", -1.0)):
         mirror = MIRROR if sign < 0 else np.ones(3)
-        _put(tree, lift, "blade_lift", LIFT_FOOT * mirror, pitched(DOWN, k.lift_eye * mirror), (0.0, 1.0, 0.0), side)
+        _put(tree, lift, "blade_lift", LIFT_FOOT * mirror, pitched(DOWN, k.lift_eye * mirror), (0.0, sign, 0.0), side)
         foot, eye = (np.array([AXLE_X + p[0], sign * (KING_Y + p[1]), STEER_Z]) for p in (STEER_FOOT, k.steer_eye))
         _put(tree, steer, "steering", foot, eye, (0.0, 0.0, 1.0), side)
     centre = draw_hung_cylinder(sizes["centre"], blade.CENTRE_BALL)
