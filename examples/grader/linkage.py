@@ -12,7 +12,7 @@ import math
 from dataclasses import dataclass
 
 import numpy as np
-from scipy.optimize import brentq, fsolve, least_squares
+from scipy.optimize import brentq, fsolve
 from scipy.spatial.transform import Rotation
 
 from drawing.articulation import Steering, steering_between
@@ -32,8 +32,8 @@ SADDLE = np.array([2_950.0, 0.0, 1_880.0])
 """Where the saddle turns, lengthwise."""
 LIFT_FOOT = np.array([2_950.0, 620.0, 2_200.0])
 LIFT_Y, LIFT_Z = 850.0, 920.0
-CENTRE_FOOT, CENTRE_Z, CENTRE_OUT = np.array([3_150.0, -700.0, 1_300.0]), 965.0, 0.3
-"""The centre shift cylinder: its foot, its eye's height, and how far it is out, as a share of its stroke."""
+CENTRE_FOOT, CENTRE_Z = np.array([3_150.0, -700.0, 1_300.0]), 965.0
+"""The centre shift cylinder: its foot, and its eye's height."""
 CIRCLE = np.array([2_700.0, 0.0, 760.0])
 EDGE_X = 2_740.0
 CORNER = np.array([EDGE_X, v.BLADE_LENGTH.value / 2, 0.0])
@@ -41,8 +41,8 @@ BACK = ((2_575.0, 110.0), (2_575.0, 440.0))
 """x and z of the moldboard's rear corners."""
 RAISED = 150.0
 """How high the edge is drawn."""
-HOLE = math.radians(48.0)
-"""How far the saddle turns to its outermost hole."""
+HOLE = math.radians(-48.0)
+"""How far the saddle turns to its outermost hole for a bank on the right, its right side up."""
 TIP_PIVOT, TIP_FOOT = np.array([2_500.0, 200.0]), np.array([1_985.0, 590.0])
 """x and z: where the blade's carrier turns on the circle, and the foot of its cylinder."""
 
@@ -205,12 +205,13 @@ def solve() -> Linkage:
     x, closed = fsolve(lift, [2_950.0, 900.0], xtol=1e-14)
     lift_eye = np.array([float(x), LIFT_Y, LIFT_Z])
 
-    def reach(eye_y: float) -> float:
-        eye = np.array([CENTRE_FOOT[0], eye_y, CENTRE_Z])
-        return shoulder(eye, float(np.linalg.norm(eye - CENTRE_FOOT)) + (1.0 - CENTRE_OUT) * v.CENTRE_STROKE.value) - v.SHOULDER.value
+    centre_eye = np.array([CENTRE_FOOT[0], 600.0, CENTRE_Z])
+    drawn = float(np.linalg.norm(centre_eye - CENTRE_FOOT))
 
-    centre_eye = np.array([CENTRE_FOOT[0], float(brentq(reach, 400.0, 700.0, xtol=1e-12)), CENTRE_Z])
-    centre_closed = float(np.linalg.norm(centre_eye - CENTRE_FOOT)) - CENTRE_OUT * v.CENTRE_STROKE.value
+    def reach(length: float) -> float:
+        return shoulder(centre_eye, length) - v.SHOULDER.value
+
+    centre_closed = float(brentq(reach, drawn + 300.0, drawn + 480.0, xtol=1e-11)) - v.CENTRE_STROKE.value
 
     def tip(height: float) -> float:
         made = [
@@ -263,19 +264,29 @@ def shoulder(centre_eye: Array, length: float) -> float:
     return far - v.WIDTH.value / 2
 
 
+def slope_of(matrix: Array) -> float:
+    """How steeply the cutting edge rises to the right, the drawbar turned so (3, 3), degrees."""
+    return math.degrees(math.asin(-float(matrix[2, 1])))
+
+
+def held(k: Linkage) -> Array:
+    """The drawbar's rotation (3, 3) with the saddle in its outermost hole, the cylinders as they are drawn: followed
+    from the drawn pose."""
+    matrix, lengths = k.straight(RAISED), k.lengths(k.straight(RAISED))
+    for angle in np.linspace(0.0, HOLE, 41)[1:]:
+        matrix = k.drawbar(lengths, matrix, float(angle))
+    return matrix
+
+
 def bank_cut(k: Linkage) -> Array:
-    """The drawbar's rotation (3, 3) at which the blade stands upright on the right, the saddle in its outermost hole,
-    every cylinder well within its stroke: as near the middles as it may be."""
-    ends = np.array([[k.lift_closed, k.lift_closed, k.centre_closed]]).T
-    strokes = np.array([v.LIFT_STROKE.value, v.LIFT_STROKE.value, v.CENTRE_STROKE.value])
-
-    def off(turn: Array) -> Array:
-        matrix = np.array(Rotation.from_rotvec(turn).as_matrix())
-        shares = (k.lengths(matrix, HOLE) - ends[:, 0]) / strokes - 0.5
-        return np.array([*(2.0 * shares) ** 4, *(1e3 * matrix[:2, 1])])
-
-    found = [least_squares(off, [1.5, a, -0.3], xtol=1e-15, ftol=1e-15, gtol=1e-15) for a in (-0.6, 0.0, 0.6)]
-    return np.array(Rotation.from_rotvec(min(found, key=lambda one: one.cost).x).as_matrix())
+    """The drawbar's rotation (3, 3) at which the blade is steepest for a bank on the right, its right end up, the
+    saddle in its outermost hole: the left lift and the centre shift cylinder fully out, the right lift fully in."""
+    matrix = held(k)
+    lengths, low = k.lengths(matrix, HOLE), np.array([k.lift_closed, k.lift_closed, k.centre_closed])
+    strokes = np.array([v.LIFT_STROKE.value, 0.0, v.CENTRE_STROKE.value])
+    for share in np.linspace(0.0, 1.0, 41)[1:]:
+        matrix = k.drawbar(lengths + share * (low + strokes - lengths), matrix, HOLE)
+    return matrix
 
 
 def measured() -> dict[str, float]:
@@ -297,12 +308,11 @@ def measured() -> dict[str, float]:
     ]
     lean = float(brentq(lambda a: k.lean_length(a) - k.closed("lean") - v.LEAN_STROKE.value, 0.0, 0.6))
     steer = float(brentq(lambda a: k.steer_length(a) - k.closed("steer"), 0.3, 1.2))
-    upright = bank_cut(k)
     return {
         v.BLADE_LIFT.name: high,
         v.DEPTH_OF_CUT.name: -low,
         v.SHOULDER.name: shoulder(k.centre_eye, k.centre_closed + v.CENTRE_STROKE.value),
-        v.BANK_CUT.name: math.degrees(math.asin(min(1.0, float(upright[2, 1])))),
+        v.BANK_CUT.name: slope_of(bank_cut(k)),
         v.TIP_FORWARD.name: math.degrees(tips[1]),
         v.TIP_BACK.name: -math.degrees(tips[0]),
         v.STEERING.name: math.degrees(steer),

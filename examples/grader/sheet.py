@@ -58,7 +58,10 @@ def _first(c: Canvas) -> None:
     y = value_lines(c, x, y, (
         ("Maximum lift above ground", v.BLADE_LIFT), ("Maximum depth of cut", v.DEPTH_OF_CUT),
         ("Blade side shift, left", v.SHIFT_LEFT), ("Blade side shift, right", v.SHIFT_RIGHT),
-        ("Shoulder reach outside tires", v.SHOULDER), ("Bank cut angle, maximum", v.BANK_CUT),
+        ("Shoulder reach outside tires", v.SHOULDER),
+    ))  # fmt: skip
+    y = lines(c, x, y + 8, (Line("Bank cut angle, maximum", (f"{v.BANK_CUT.value:.1f}°",), ours=True),), HALF)
+    y = value_lines(c, x, y + 8, (
         ("Blade tip angle, forward", v.TIP_FORWARD), ("Blade tip angle, backward", v.TIP_BACK),
         ("Circle rotation", v.CIRCLE_TURN), ("Circle diameter", v.CIRCLE_DIAMETER),
     ))  # fmt: skip
