@@ -124,9 +124,9 @@ def draw_cylinder(c: Cylinder, pin_fast_in_rod: bool = False) -> Assembly:
 
 
 def draw_hung_cylinder(c: Cylinder, ball_radius: float, *, collar: float = 0.0) -> Assembly:
-    """A cylinder with a socket for a ball stud of that radius at its rod's end, drawn like `draw_cylinder`; at the other
-    end another, or, with a `collar` of a radius, a ball around the tube at the origin, which sits in a socket of what
-    carries it: `base` is then negative. Bodies are tagged as there."""
+    """A cylinder with a socket for a ball stud of that radius at its rod's end, drawn like `draw_cylinder`. At the other
+    end it has another; or, with a `collar` of a radius, a ball around the tube at the origin, which sits in a socket of
+    what carries it: `base` is then negative. Bodies are tagged as there."""
     tree, tube = Assembly(c.name), _tube(c)
     if collar:
         grown = fuse(tube.shape, cut(ball((0, 0, 0), collar), rod((-2 * collar, 0, 0), X, c.bore / 2, 4 * collar)))
@@ -146,7 +146,9 @@ def _socket(c: Cylinder, radius: float, to: float, neck: float) -> TopoDS_Shape:
     """A block around a ball at the origin, open for its stud, which comes along +y; its neck, of that radius, ends at
     `to`."""
     along = X if to > 0.0 else (-1.0, 0.0, 0.0)
-    shape = fuse(rod((0, -c.eye_width / 2, 0), Y, c.eye, c.eye_width + radius / 2), rod((0, 0, 0), along, neck, abs(to)))
+    shape = fuse(
+        rod((0, -c.eye_width / 2, 0), Y, c.eye, c.eye_width + radius / 2), rod((0, 0, 0), along, neck, abs(to))
+    )
     far = max(abs(to), c.eye) + 1.0
     if abs(to) < c.eye:  # the rod ends in the block
         shape = cut(shape, box(-far, to, -neck - 20, neck + 20, -neck - 20, neck + 20))

@@ -8,7 +8,7 @@ from OCP.TopoDS import TopoDS_Shape
 from drawing.cylinders import Cylinder
 from drawing.hardware import CLEARANCE, pin
 from drawing.product import GREY, YELLOW, Assembly, Part
-from drawing.solids import X, Y, Z, Vector, bored, box, cut, fuse, mirrored, plate, rod, shift, turn
+from drawing.solids import Vector, X, Y, Z, bored, box, cut, fuse, mirrored, plate, rod, shift, turn
 
 from . import values as v
 from .linkage import (
@@ -58,7 +58,11 @@ def _pair(tree: Assembly, name: str, shape: TopoDS_Shape, body: str) -> None:
 def draw_axle(k: Linkage, hardware: Assembly) -> Assembly:
     """Everything but wheels and cylinders."""
     tree, x = Assembly("FRONT AXLE ASSY"), AXLE_X
-    beam = fuse(box(x - 75, x + 75, -570, 570, 470, 600), box(x - 75, x + 75, -90, 90, 600, OSCILLATION_Z), rod((x - 75, 0, OSCILLATION_Z), X, 90, 150))
+    beam = fuse(
+        box(x - 75, x + 75, -570, 570, 470, 600),
+        box(x - 75, x + 75, -90, 90, 600, OSCILLATION_Z),
+        rod((x - 75, 0, OSCILLATION_Z), X, 90, 150),
+    )
     tree.add(Part("AXLE BEAM", bored(beam, X, ((x, 0, OSCILLATION_Z), PIN_OSCILLATION / 2 + CLEARANCE)), GREY), BODY)
     for name, start in (("FRT", 57.0), ("RR", -92.0)):
         fork = plate([(LEAN_Y, LEAN_Z, 62), (520, 600, 0), (520, 470, 0)], "yz", x + start, x + start + 35)
@@ -86,12 +90,12 @@ def draw_axle(k: Linkage, hardware: Assembly) -> Assembly:
 
 
 def _cylinder_lug(tree: Assembly, k: Linkage) -> None:
-    """On the beam the lean cylinder's foot, on the left yoke its eye's lug; on the beam the steering cylinders' feet."""
-    x, z = AXLE_X - EYE_AHEAD, k.lean_foot_z
-    cheeks = [plate([(LEAN_FOOT_Y, z, 36), (LEAN_FOOT_Y - 50, 600, 0), (LEAN_FOOT_Y + 50, 600, 0)], "yz", x + a, x + a + 14)
+    """On the beam the feet of the lean and steering cylinders, on the left yoke the lug of the lean cylinder's eye."""
+    x, y, z = AXLE_X - EYE_AHEAD, LEAN_FOOT_Y, k.lean_foot_z
+    cheeks = [plate([(y, z, 36), (y - 50, 600, 0), (y + 50, 600, 0)], "yz", x + a, x + a + 14)
               for a in (-37.0, 23.0)]  # fmt: skip
-    foot = fuse(box(x - 37, x + 37, LEAN_FOOT_Y - 50, LEAN_FOOT_Y + 50, 600, 612), *cheeks)
-    tree.add(Part("LEAN CYL LUG", bored(foot, X, ((x, LEAN_FOOT_Y, z), PIN_LEANER / 2)), GREY), BODY)
+    foot = fuse(box(x - 37, x + 37, y - 50, y + 50, 600, 612), *cheeks)
+    tree.add(Part("LEAN CYL LUG", bored(foot, X, ((x, y, z), PIN_LEANER / 2)), GREY), BODY)
     ears = [plate([(LEAN_Y, LEAN_EYE_Z, 36), (LEAN_Y + 30, 760, 0), (LEAN_Y + 52, 800, 0)], "yz", x + a, x + a + 14)
             for a in (-37.0, 23.0)]  # fmt: skip
     back = box(x - 37, AXLE_X - 42, LEAN_Y + 38, LEAN_Y + 54, 760, 880)

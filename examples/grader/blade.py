@@ -1,8 +1,9 @@
-"""Saddle, drawbar, circle, the blade's carrier and the moldboard. The drawbar and what it carries are drawn as they stand
-with the edge on the ground and carried from there. Machine frame, millimetres."""
+"""Saddle, drawbar, circle, the blade's carrier and the moldboard. The drawbar and what it carries are drawn as they
+stand with the edge on the ground and carried from there. Machine frame, millimetres."""
 
 from __future__ import annotations
 
+import itertools
 import math
 
 from OCP.gp import gp_Trsf
@@ -44,7 +45,7 @@ def stud(tree: Assembly, at: tuple[float, float, float], axis: tuple[float, floa
 
 
 def draw_saddle(hardware: Assembly) -> Assembly:
-    """Its boss over the frame's beam, an arm on either side with the socket of a lift cylinder, the centre shift's arm."""
+    """Its boss over the frame's beam, an arm on either side with a lift cylinder's socket, the centre shift's arm."""
     tree, body = Assembly("SADDLE ASSY"), "saddle"
     x, _, z = (float(c) for c in SADDLE)
     fx, fy, fz = (float(c) for c in LIFT_FOOT)
@@ -89,7 +90,7 @@ class Drawer:
 
 
 def draw_drawbar(k: Linkage, down: float, hardware: Assembly) -> Assembly:
-    """Nose with its socket, two arms, the table over the circle with the ring that guides that, the cylinders' studs."""
+    """Nose with its socket, two arms, the table over the circle and the ring that guides that, the cylinders' studs."""
     d, body = Drawer("DRAWBAR ASSY", hardware, down), "drawbar"
     nx, _, nz = (float(c) for c in NOSE)
     hollow = ball((nx, 0, nz), NOSE_BALL + CLEARANCE)
@@ -188,7 +189,7 @@ def draw_moldboard(down: float) -> Assembly:
     face = (on(radius, high), on(radius, 0.5 * (high + 180.0)), on(radius, 180.0))
     back = [flat[1], (EDGE_X - 64 - thick, 90.0), (2_600.0, 118.0), (2_600.0, 432.0), on(radius + thick, high)]
     corners = [face[2], *flat[:1], *back, face[0]]
-    path = [face, *zip(corners, corners[1:], strict=False)]
+    path = [face, *itertools.pairwise(corners)]
     d.put("MOLDBOARD PL", prism(path, "xz", -HALF + 12, HALF - 12), body)
     side = HALF - 12
     for name, z0, z1 in (("LWR", 115.0, 165.0), ("UPR", 395.0, 435.0)):
@@ -201,7 +202,7 @@ def draw_moldboard(down: float) -> Assembly:
     gusset = [(EDGE_X - 28, 0, 0.0), (EDGE_X, 0, 0.0), (EDGE_X - 62, 160, 0.0), (EDGE_X - 95, 300, 0.0),
               (EDGE_X, high, 0.0), (EDGE_X - 60, high, 0.0), *((x, z, 0.0) for x, z in reversed(BACK))]  # fmt: skip
     d.pair("MOLDBOARD END PL", plate(gusset, "xz", side, HALF), body)
-    sx, sz = SHIFT_AT
+    sx = SHIFT_AT[0]
     end = -740.0 + side_ram().long + v.SHIFT_RIGHT.value
     lug = box(sx - 60, 2_600, end, end + 30, 172.0, 388.0)
     d.put("SIDE SHIFT LUG", lug, body)
@@ -232,4 +233,3 @@ def sizes(k: Linkage, lift: float, centre: float) -> dict[str, Cylinder]:
             outside=100, pin=PIN_TIP, eye=38, eye_width=46, base=70, cap=22, piston=45, gland=45, port=10.0,
         ),
     }  # fmt: skip
-

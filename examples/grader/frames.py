@@ -173,7 +173,9 @@ def draw_tandems(hardware: Assembly) -> Assembly:
     for letter, shape, sign in (("l", case, 1.0), ("r", mirrored(case), -1.0)):
         tree.add(Part(f"TANDEM CASE {letter.upper()}H", shape), f"bogie_beam_{letter}")
         start = CASE[0] - 120 if sign > 0 else -CASE[1] - 12
-        fit_pin(hardware, (TANDEM_X, start, RADIUS), PIN_TANDEM, CASE[1] - CASE[0] + 132, REAR, f"bogie_beam_{letter}_pin")
+        fit_pin(
+            hardware, (TANDEM_X, start, RADIUS), PIN_TANDEM, CASE[1] - CASE[0] + 132, REAR, f"bogie_beam_{letter}_pin"
+        )
     return tree
 
 

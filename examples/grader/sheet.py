@@ -25,8 +25,8 @@ from . import values as v
 
 TITLE = f"Example motor grader, {v.MODEL} class"
 SOURCE = (
-    f"Published values are those of the {v.MAKE} {v.MODEL} ({v.BROCHURE}), with ripper and push plate. Dimensions after "
-    f"ISO 7134 and ISO 6746-1, tires {v.TYRE_SIZE}. Not a publication of the maker."
+    f"Published values are those of the {v.MAKE} {v.MODEL} ({v.BROCHURE}), with ripper and push plate. Dimensions "
+    f"after ISO 7134 and ISO 6746-1, tires {v.TYRE_SIZE}. Not a publication of the maker."
 )
 
 

@@ -77,7 +77,7 @@ def joints(k: Linkage, bend: Steering, down: float, up: float) -> dict[str, dict
     out.pivot(FRONT, REAR, (0, 0, BEND_Z), Z)
     out.pivot(FRONT, "front_axle", (AXLE_X, 0, OSCILLATION_Z), X)
     out.ball(FRONT, "drawbar", three(NOSE))
-    axis = three(pitched(down, CIRCLE + (0.0, 0.0, 1.0)) - pitched(down, CIRCLE))
+    axis = three(pitched(down, CIRCLE + np.array([0.0, 0.0, 1.0])) - pitched(down, CIRCLE))
     out.pivot("drawbar", "circle", at(CIRCLE), axis)
     out.pivot("circle", "blade_carrier", at(np.array(flat(TIP_PIVOT))))
     tip = [at(np.array(flat(p))) for p in (TIP_FOOT, TIP_PIVOT + k.tip_eye)]
@@ -86,15 +86,15 @@ def joints(k: Linkage, bend: Steering, down: float, up: float) -> dict[str, dict
     out.ball_cylinder("centre_shift", "", ("saddle", "drawbar"), three(CENTRE_FOOT), at(k.centre_eye))
     for letter, sign in (("_l", 1.0), ("_r", -1.0)):
         mirror = MIRROR if sign < 0 else np.ones(3)
-        out.ball_cylinder("blade_lift", letter, ("saddle", "drawbar"), three(LIFT_FOOT * mirror), at(k.lift_eye * mirror))
+        out.ball_cylinder(
+            "blade_lift", letter, ("saddle", "drawbar"), three(LIFT_FOOT * mirror), at(k.lift_eye * mirror)
+        )
         yoke, knuckle = f"lean_yoke{letter}", f"knuckle{letter}"
         out.pivot("front_axle", yoke, (AXLE_X, sign * LEAN_Y, LEAN_Z), X)
         out.ball(yoke, "leaning_bar", (AXLE_X + EYE_AHEAD, sign * LEAN_Y, BAR_Z))
         out.pivot(yoke, knuckle, (AXLE_X, sign * KING_Y, RADIUS), Z)
         out.ball(knuckle, "tie_rod", (AXLE_X + float(TIE[0]), sign * (KING_Y + float(TIE[1])), TIE_Z))
-        foot, eye = (
-            (AXLE_X + float(p[0]), sign * (KING_Y + float(p[1])), STEER_Z) for p in (STEER_FOOT, k.steer_eye)
-        )
+        foot, eye = ((AXLE_X + float(p[0]), sign * (KING_Y + float(p[1])), STEER_Z) for p in (STEER_FOOT, k.steer_eye))
         out.ball_cylinder("steering", letter, ("front_axle", knuckle), foot, eye)
         p, q = ((float(c[0]), sign * float(c[1]), BEND_Z) for c in (bend.P, bend.Q))
         out.cylinder("articulation", letter, (FRONT, REAR), p, q, Z)

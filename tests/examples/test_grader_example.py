@@ -1,5 +1,5 @@
-"""The grader example: its linkages meet what its sheet prints, it is drawn so, and it builds to a machine that is ready,
-with and without names, from surfaces and from triangles; its drawbar goes to a bank cut and back on its branch."""
+"""The grader example: its linkages meet what its sheet prints, it is drawn so, and it builds to a machine that is
+ready, with and without names, from surfaces and from triangles; its drawbar keeps its branch to a bank cut and back."""
 
 from __future__ import annotations
 
@@ -158,7 +158,7 @@ def test_a_drawbar_goes_to_a_bank_cut_and_back_on_its_branch(
     k, chain = linkage.solve(), ClosedChain(machine.mechanism)
     start = linkage.held(k)
     low = np.array([k.lift_closed, k.lift_closed, k.centre_closed])
-    goal = low + (values.LIFT_STROKE.value, 0.0, values.CENTRE_STROKE.value)
+    goal = low + np.array([values.LIFT_STROKE.value, 0.0, values.CENTRE_STROKE.value])
     lengths, matrix, state = k.lengths(start, linkage.HOLE), start, chain.drawn
     for share in (*np.linspace(0.025, 1.0, 40), *np.linspace(0.975, 0.0, 40)):
         longer = share * (goal - lengths)

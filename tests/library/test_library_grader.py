@@ -44,7 +44,10 @@ def test_links_between_balls_are_said_to_spin(report: LintReport) -> None:
 def test_both_wheels_of_a_tandem_turn_alike(grader: Template) -> None:
     for side in "lr":
         rear = grader.joint(f"rear_wheel_{side}_joint")
-        assert rear.follows is not None and (rear.follows.joint, rear.follows.ratio) == (f"middle_wheel_{side}_joint", 1.0)
+        assert rear.follows is not None and (rear.follows.joint, rear.follows.ratio) == (
+            f"middle_wheel_{side}_joint",
+            1.0,
+        )
         assert rear.drive is None
     driven = next(a for a in grader.actuators if a.name == "drive").joints
     assert not any(name.startswith("rear_wheel") for name in driven)
