@@ -124,9 +124,9 @@ def draw_cylinder(c: Cylinder, pin_fast_in_rod: bool = False) -> Assembly:
 
 
 def draw_hung_cylinder(c: Cylinder, ball_radius: float, *, collar: float = 0.0) -> Assembly:
-    """A cylinder with a socket for a ball stud of that radius at its rod's end, drawn like `draw_cylinder`. At the other
-    end it has another; or, with a `collar` of a radius, a ball around the tube at the origin, which sits in a socket of
-    what carries it: `base` is then negative. Bodies are tagged as there."""
+    """A cylinder with a socket for a ball stud of that radius at its rod's end, drawn like `draw_cylinder`. At the
+    other end it has another; or, with a `collar` of a radius, a ball around the tube at the origin, which sits in a
+    socket of what carries it: `base` is then negative. Bodies are tagged as there."""
     tree, tube = Assembly(c.name), _tube(c)
     if collar:
         grown = fuse(tube.shape, cut(ball((0, 0, 0), collar), rod((-2 * collar, 0, 0), X, c.bore / 2, 4 * collar)))
