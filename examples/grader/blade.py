@@ -132,7 +132,7 @@ def draw_circle(k: Linkage, down: float, hardware: Assembly) -> Assembly:
     for name, shape in zip(("LH", "RH"), cheeks, strict=True):
         d.put(f"TIP CYL LUG {name}", bored(shape, Y, ((fx, 0, fz), PIN_TIP / 2)), body)
     d.pin(fx, fz, (-45, 45), PIN_TIP, body, "blade_tip_cylinder_barrel_pin")
-    for start, end in ((CHEEK[0] - 5, ARM[1] + 5), (-ARM[1] - 5, -CHEEK[0] + 5)):
+    for start, end in ((CHEEK[0] + 1, ARM[1] + 5), (-ARM[1] - 5, -CHEEK[0] - 1)):
         d.pin(px, pz, (start, end), PIN_CARRIER, body, "blade_carrier_pin")
     return d.tree
 
