@@ -13,7 +13,7 @@ from dataclasses import dataclass
 from OCP.TopoDS import TopoDS_Shape
 
 from .product import CHROME, GREY, STEEL, YELLOW, Assembly, Colour, Part, Use
-from .solids import Vector, X, Y, Z, bored, box, cut, frame, fuse, plate, ring, rod, shift, turn
+from .solids import Vector, X, Y, Z, ball, bored, box, cut, frame, fuse, plate, ring, rod, shift, turn
 
 
 @dataclass(frozen=True, slots=True)
@@ -71,6 +71,31 @@ PIN_CLEARANCE = 0.2
 """Radial clearances, millimetres."""
 
 
+def _tube(c: Cylinder) -> Part:
+    outer, inner = c.outside / 2, c.bore / 2
+    size = c.port / 22.0
+    port = (
+        rod((c.base + 35 * size, 0, 0), Z, c.port, outer + 28 * size),
+        rod((c.gland_face - c.gland - 40 * size, 0, 0), Z, c.port, outer + 28 * size),
+    )
+    tube = fuse(rod((c.base - c.cap, 0, 0), X, outer, c.cap + c.inside + c.gland - 30), *port)
+    return Part(f"{c.name} TUBE", cut(tube, rod((c.base, 0, 0), X, inner, c.inside + c.gland)), c.colour)
+
+
+def _gland(c: Cylinder) -> Part:
+    nose = rod((c.gland_face - 30, 0, 0), X, c.outside / 2, 30.0)
+    gland = fuse(rod((c.gland_face - c.gland, 0, 0), X, c.bore / 2, c.gland), nose)
+    return Part(f"{c.name} GLAND", bored(gland, X, ((0, 0, 0), c.rod / 2 + ROD_CLEARANCE)), GREY)
+
+
+def _rod_and_piston(c: Cylinder) -> tuple[Part, Part]:
+    piston_at = c.base + c.drawn - c.closed
+    head = c.drawn - c.eye * 0.8
+    piston = ring((piston_at, 0, 0), X, c.bore / 2 - PISTON_CLEARANCE, c.rod / 2, c.piston)
+    shaft = rod((piston_at, 0, 0), X, c.rod / 2, head - piston_at)
+    return Part(f"{c.name} ROD", shaft, CHROME), Part(f"{c.name} PISTON", piston, STEEL)
+
+
 def draw_cylinder(c: Cylinder, pin_fast_in_rod: bool = False) -> Assembly:
     """The cylinder at its drawn length. Bodies are tagged "barrel" and "rod"; the user of the assembly names
     them.
@@ -79,30 +104,14 @@ def draw_cylinder(c: Cylinder, pin_fast_in_rod: bool = False) -> Assembly:
     machine part.
     """
     tree = Assembly(c.name)
-    half = c.eye_width / 2
-    outer, inner = c.outside / 2, c.bore / 2
-    start = c.base - c.cap
-    size = c.port / 22.0
-    port = (
-        rod((c.base + 35 * size, 0, 0), Z, c.port, outer + 28 * size),
-        rod((c.gland_face - c.gland - 40 * size, 0, 0), Z, c.port, outer + 28 * size),
-    )
-    tube = fuse(rod((start, 0, 0), X, outer, c.cap + c.inside + c.gland - 30), *port)
-    tube = cut(tube, rod((c.base, 0, 0), X, inner, c.inside + c.gland))
-    tree.add(Part(f"{c.name} TUBE", tube, c.colour), "barrel")
+    half, start = c.eye_width / 2, c.base - c.cap
+    tree.add(_tube(c), "barrel")
     lug = plate([(0, 0, c.eye), (start + 2, -c.eye * 0.9, 0), (start + 2, c.eye * 0.9, 0)], "xz", -half, half)
     eye = bored(lug, Y, ((0, 0, 0), c.pin / 2 + PIN_CLEARANCE))
     tree.add(Part(f"{c.name} BRL EYE", eye, c.colour), "barrel")
-    nose = rod((c.gland_face - 30, 0, 0), X, outer, 30.0)
-    gland = fuse(rod((c.gland_face - c.gland, 0, 0), X, inner, c.gland), nose)
-    gland = bored(gland, X, ((0, 0, 0), c.rod / 2 + ROD_CLEARANCE))
-    tree.add(Part(f"{c.name} GLAND", gland, GREY), "barrel")
-
-    piston_at = c.base + c.drawn - c.closed
-    head = c.drawn - c.eye * 0.8
-    tree.add(Part(f"{c.name} ROD", rod((piston_at, 0, 0), X, c.rod / 2, head - piston_at), CHROME), "rod")
-    piston = ring((piston_at, 0, 0), X, inner - PISTON_CLEARANCE, c.rod / 2, c.piston)
-    tree.add(Part(f"{c.name} PISTON", piston, STEEL), "rod")
+    tree.add(_gland(c), "barrel")
+    for part in _rod_and_piston(c):
+        tree.add(part, "rod")
     shank = box(-c.eye * 0.8 - 12, 0, -half * 0.8, half * 0.8, -c.rod / 2 - 6, c.rod / 2 + 6)
     shape = fuse(rod((0, -half, 0), Y, c.eye, c.eye_width), shank)
     clearance = 0.0 if pin_fast_in_rod else PIN_CLEARANCE
@@ -112,6 +121,39 @@ def draw_cylinder(c: Cylinder, pin_fast_in_rod: bool = False) -> Assembly:
         at=shift(c.drawn),
     )
     return tree
+
+
+def draw_hung_cylinder(c: Cylinder, ball_radius: float, *, collar: float = 0.0) -> Assembly:
+    """A cylinder with a socket for a ball stud of that radius at its rod's end, drawn like `draw_cylinder`. At the
+    other end it has another; or, with a `collar` of a radius, a ball around the tube at the origin, which sits in a
+    socket of what carries it: `base` is then negative. Bodies are tagged as there."""
+    tree, tube = Assembly(c.name), _tube(c)
+    if collar:
+        grown = fuse(tube.shape, cut(ball((0, 0, 0), collar), rod((-2 * collar, 0, 0), X, c.bore / 2, 4 * collar)))
+        tube = Part(f"{c.name} TUBE", grown, c.colour)
+    tree.add(tube, "barrel")
+    if not collar:
+        tree.add(Part(f"{c.name} BRL SOCKET", _socket(c, ball_radius, c.base - c.cap, 0.7 * c.eye), c.colour), "barrel")
+    tree.add(_gland(c), "barrel")
+    for part in _rod_and_piston(c):
+        tree.add(part, "rod")
+    shape = _socket(c, ball_radius, -0.8 * c.eye, 0.5 * c.rod + 8.0)
+    tree.add(Part(f"{c.name} ROD SOCKET", shape, c.colour), "rod", at=shift(c.drawn))
+    return tree
+
+
+def _socket(c: Cylinder, radius: float, to: float, neck: float) -> TopoDS_Shape:
+    """A block around a ball at the origin, open for its stud, which comes along +y; its neck, of that radius, ends at
+    `to`."""
+    along = X if to > 0.0 else (-1.0, 0.0, 0.0)
+    shape = fuse(
+        rod((0, -c.eye_width / 2, 0), Y, c.eye, c.eye_width + radius / 2), rod((0, 0, 0), along, neck, abs(to))
+    )
+    far = max(abs(to), c.eye) + 1.0
+    if abs(to) < c.eye:  # the rod ends in the block
+        shape = cut(shape, box(-far, to, -neck - 20, neck + 20, -neck - 20, neck + 20))
+    shape = cut(shape, ball((0, 0, 0), radius + PIN_CLEARANCE))
+    return cut(shape, rod((0, -2.0 * radius, 0), Y, 0.62 * radius, 2.0 * radius))
 
 
 def put_pair(tree: Assembly, cylinder: Assembly, name: str, start: Vector, end: Vector) -> None:

@@ -26,6 +26,7 @@ from yellowiron.usd.authoring.metadata import DOCUMENTS, FORMAT, from_json
 from yellowiron.usd.authoring.rotation import axis_of, principal_axes
 from yellowiron.usd.layers.drives import INSTANCES, per_usd_unit, to_usd_unit
 from yellowiron.usd.layers.mujoco import MIMIC, MIMIC_NAMES
+from yellowiron.usd.layers.physx import ENDLESS
 from yellowiron.usd.layers.sensors import read_sensors
 from yellowiron.usd.planning.pin_links import KIND as PIN_LINK
 from yellowiron.usd.planning.plan import HULL, HULL_SCALE, JOINTS, VISUALS
@@ -318,7 +319,7 @@ def _limit(prim: Usd.Prim, name: str, recorded: float | None, factor: float) -> 
     value = float(attribute.Get())
     if recorded is not None and _same(value, recorded * factor):
         return recorded
-    return value / factor if np.isfinite(value) else None
+    return value / factor if abs(value) < ENDLESS else None
 
 
 def _drive(prim: Usd.Prim, kind: str, recorded: Drive) -> Drive:

@@ -1,4 +1,5 @@
-"""Hydraulic cylinders by shape: a long bore, a thinner long shaft that sticks out at one end, an eye across each."""
+"""Hydraulic cylinders by shape: a long bore, a thinner long shaft that sticks out at one end, an eye across each or a
+ball, which may go round the barrel."""
 
 from __future__ import annotations
 
@@ -6,7 +7,7 @@ from dataclasses import dataclass, replace
 
 import numpy as np
 
-from yellowiron.alignment.features.solids import Cyl, Solid, coaxial
+from yellowiron.alignment.features.solids import Ball, Cyl, Solid, coaxial
 from yellowiron.alignment.tolerances import ACROSS, PARALLEL_TWINS, TWIN
 from yellowiron.model.geometry import Floats
 
@@ -78,8 +79,8 @@ def _rods_in_bores(solids: tuple[Solid, ...], tolerance: float, *, fixed: bool) 
     faces = [(s, c) for s in solids for c in s.cylinders if c.full]
     bores = [(s, c) for s, c in faces if c.inner and 2 * c.half > 3.5 * c.radius and c.radius < 0.25 * s.size]
     shafts = [(s, c) for s, c in faces if not c.inner and 2 * c.half > 4 * c.radius]
-    eyes = [c for _, c in faces if c.inner]
-    pairs = (_pair(tube, bore, bar, shaft, eyes, tolerance) for tube, bore in bores for bar, shaft in shafts)
+    eyes, balls = [c for _, c in faces if c.inner], [b for s in solids for b in s.balls]
+    pairs = (_pair(tube, bore, bar, shaft, (eyes, balls), tolerance) for tube, bore in bores for bar, shaft in shafts)
     return [pair for pair in pairs if pair is not None and (fixed or not pair.fixed)]
 
 
@@ -94,7 +95,10 @@ def _alike(one: Pair, other: Pair) -> bool:
     return one is other or (same and apart and as_far and one.shaft is not other.shaft)
 
 
-def _pair(tube: Solid, bore: Cyl, bar: Solid, shaft: Cyl, eyes: list[Cyl], tolerance: float) -> Pair | None:
+def _pair(
+    tube: Solid, bore: Cyl, bar: Solid, shaft: Cyl, hung: tuple[list[Cyl], list[Ball]], tolerance: float
+) -> Pair | None:
+    """What a bore and a shaft in it are of; `hung`: the eyes and the balls, or sockets, that it may hang on."""
     if tube.index == bar.index or not 0.25 * bore.radius < shaft.radius < 0.95 * bore.radius:
         return None
     if not coaxial(bore, shaft, 0.03, tolerance):
@@ -111,8 +115,9 @@ def _pair(tube: Solid, bore: Cyl, bar: Solid, shaft: Cyl, eyes: list[Cyl], toler
     low, high = tube.span(bore.center, direction)
     far = max(bar.span(bore.center, direction)[1], b)
     reach = 6 * bore.radius
-    ends = [crossing(e, bore.center, direction, bore.radius) for e in eyes]
+    ends = [crossing(e, bore.center, direction, bore.radius) for e in hung[0]]
     places = [p for p in ends if p is not None]
+    places += [float((b.center - bore.center) @ direction) for b in hung[1] if bore.off(b.center) < 0.1 * b.radius]
     behind = any(low - reach < p < bore.half for p in places)
     ahead = any(max(bore.half, b - reach) < p < far + reach for p in places)
     fixed = through or not (behind and ahead)

@@ -8,6 +8,7 @@ from dataclasses import dataclass, field
 
 import numpy as np
 
+from yellowiron.alignment.features.ball_joints import is_ball
 from yellowiron.alignment.features.contacts import Fit, Flat, SharedAxis, shared_axes_of
 from yellowiron.alignment.features.cylinders import DrawnCylinder
 from yellowiron.alignment.features.solids import Cyl, Solid, coaxial, size_of
@@ -164,7 +165,8 @@ def _roles_of(contacts: Contacts) -> _Roles:
 
 
 def _sorted_fits(contacts: Contacts, axes: list[SharedAxis], roles: _Roles, *, slewing: bool) -> _Fits:
-    """Each fit by what it means: of a fastener in its host, of races, of a ring in its bore, of a part's own shaft."""
+    """Each fit by what it means: of a fastener in its host, of races, of a ring in its bore, of a part's own shaft. A
+    ball turns in its socket, whatever else it is of: a barrel that hangs in one."""
     solids, fasteners, owner = contacts.solids, roles.fasteners, roles.owner
     number = {f: k for k, axis in enumerate(axes) for f in axis.fits}
     fits = _Fits(number, {s.index: set() for s in solids})
@@ -181,7 +183,7 @@ def _sorted_fits(contacts: Contacts, axes: list[SharedAxis], roles: _Roles, *, s
             continue
         elif fit.shaft.radius > wide and (slewing or solids[fit.inner].axis is None or _race(fit, solids)):
             fits.races.append((number[k], fit))
-        elif solids[fit.inner].axis is not None:
+        elif solids[fit.inner].axis is not None and not is_ball(fit, solids[fit.inner]):
             fits.pressed.append(fit)
         else:
             fits.direct.append((number[k], fit))

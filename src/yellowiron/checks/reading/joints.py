@@ -36,6 +36,8 @@ _LEADERS = {"NewtonMimicAPI": "newton:mimicJoint", "PhysxMimicJointAPI": "physxM
 _EQUALITIES = "MjcEqualityJointAPI"
 _ACTUATORS = {"MjcActuator": "mjc:target", "NewtonActuator": "newton:targets"}
 _TENDON = "mjc:path"
+_ENDLESS = 1e9
+"""Degrees, or units of length: a limit that is none. PhysX couples pivots only where both have finite ones."""
 
 
 def read_joints(prims: list[Usd.Prim], poses: Poses, units: Units) -> tuple[StageJoint, ...]:
@@ -160,7 +162,7 @@ def _as_simple(kind: str, freedoms: tuple[str, ...]) -> str:
 
 
 def _limits(prim: Usd.Prim, kind: str, freedoms: tuple[str, ...], units: Units) -> tuple[float | None, float | None]:
-    """Limits of a hinge (rad) or slide (m); None for infinite ones."""
+    """Limits of a hinge (rad) or slide (m); None for infinite ones, and for those of a hinge that it never comes to."""
     if len(freedoms) != 1:
         return None, None
     factor = math.radians(1.0) if freedoms[0].startswith("rot") else units.meters_per_unit
@@ -168,7 +170,7 @@ def _limits(prim: Usd.Prim, kind: str, freedoms: tuple[str, ...], units: Units) 
     if kind == "generic":
         names = (f"limit:{freedoms[0]}:physics:low", f"limit:{freedoms[0]}:physics:high")
     values = [number(prim, n) for n in names]
-    lower, upper = (None if v is None or math.isinf(v) else v * factor for v in values)
+    lower, upper = (None if v is None or abs(v) >= _ENDLESS else v * factor for v in values)
     return lower, upper
 
 

@@ -11,6 +11,7 @@ import math
 from pxr import Sdf
 
 from yellowiron.model.mechanism import Joint, Mechanism
+from yellowiron.model.template import by_first_leader
 from yellowiron.usd.authoring.stage import Types, apply_schemas, over, set_attribute
 from yellowiron.usd.layers.articulation import articulation_roots
 from yellowiron.usd.layers.drives import INSTANCES, speed_limit
@@ -33,6 +34,10 @@ LOOPS_LAST = "physxScene:solveArticulationContactLast"
 pin then errs by 0.09 instead of 0.25 mm at 120 Hz, its boom lowered with a full bucket. Drives give way a fifth more: a
 loader's tilt cylinder with its rated payload ended 6.5 instead of 3.6 mm from its target, and its pins need it not."""
 
+ENDLESS = 1e9
+"""Degrees: a limit that is none. PhysX couples pivots only where both have finite ones, and takes these: wheels on one
+chain followed each other over many turns."""
+
 _VALUE_TYPES = {bool: Types.Bool, int: Types.Int, float: Types.Float}
 
 
@@ -47,6 +52,14 @@ def iterations(mechanism: Mechanism) -> int:
     return RING_ITERATIONS if mechanism.floating else POSITION_ITERATIONS
 
 
+def endless(mechanism: Mechanism) -> tuple[str, ...]:
+    """The pivots without limits that follow another or lead one."""
+    told = {joint.name: joint.follows for joint in mechanism.joints if joint.follows is not None}
+    coupled = told.keys() | {by_first_leader(name, told).joint for name in told}
+    free = (j for j in mechanism.joints if j.type == "revolute" and j.lower is None and j.upper is None)
+    return tuple(j.name for j in free if j.name in coupled)
+
+
 def write_physx(layer: Sdf.Layer, base: Sdf.Layer, plan: Plan) -> None:
     """Articulation settings, joint velocities and the collision parameters UsdPhysics has no word for."""
     for root in articulation_roots(layer, plan):
@@ -58,6 +71,10 @@ def write_physx(layer: Sdf.Layer, base: Sdf.Layer, plan: Plan) -> None:
             _write_joint(over(layer, plan.joint_paths[joint.name]), joint, "maxJointVelocity", limit)
         if joint.drive is not None and joint.drive.armature > 0.0:
             _write_joint(over(layer, plan.joint_paths[joint.name]), joint, "armature", joint.drive.armature)
+    for name in endless(plan.mechanism):
+        spec = over(layer, plan.joint_paths[name])
+        set_attribute(spec, "physics:lowerLimit", Types.Float, -ENDLESS)
+        set_attribute(spec, "physics:upperLimit", Types.Float, ENDLESS)
     for name, path in plan.material_paths.items():
         combine = plan.mechanism.materials[name].friction_combine
         if combine is not None:
