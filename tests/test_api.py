@@ -70,6 +70,7 @@ def test_a_payload_is_any_number_of_kilograms(payload: float | str, monkeypatch:
     assert given == [250.0]
 
 
+@pytest.mark.slow
 def test_an_engine_that_fails_does_not_take_the_build_with_it(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
     from kit.fleets import SETTINGS
     from kit.small import write_small

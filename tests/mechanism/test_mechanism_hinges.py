@@ -8,7 +8,7 @@ from dataclasses import replace
 import numpy as np
 import pytest
 import trimesh
-from hypothesis import given
+from hypothesis import given, settings
 from hypothesis import strategies as st
 
 from yellowiron.library import load_template
@@ -41,6 +41,7 @@ def drawn(boom: float, arm: float, *, axis: Floats) -> tuple[dict[str, Turned], 
     return {"foot": Turned(foot, axis, "base", "boom"), "elbow": Turned(tip, axis, "boom", "arm")}, points
 
 
+@settings(max_examples=25, deadline=None)
 @given(st.floats(-1.2, 1.2), st.floats(-2.5, 2.5), st.sampled_from([1.0, -1.0]))
 def test_an_angle_is_the_same_however_the_machine_is_drawn(boom: float, arm: float, way: float) -> None:
     hinges, points = drawn(boom, arm, axis=way * Y)
