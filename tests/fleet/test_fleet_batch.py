@@ -124,6 +124,11 @@ def test_a_child_that_is_killed_gets_another_try(tmp_path: Path, inputs: Path) -
     assert outcomes == {"one": "short", "two": "short"}
 
 
+def hears_ctrl_c() -> None:
+    """Where the tests themselves run in the background, what they start does not hear Ctrl-C."""
+    signal.signal(signal.SIGINT, signal.SIG_DFL)
+
+
 def command(manifest: Path, out: Path, *words: str) -> list[str]:
     return [sys.executable, "-m", "yellowiron", "batch", str(manifest), "--out", str(out), "-q", "-j", "2", *words]
 
@@ -158,7 +163,7 @@ def test_ctrl_c_ends_what_is_at_work_and_leaves_what_is_whole(tmp_path: Path, in
     machines = [{"cad": "in/small.glb", "id": f"m{n}"} for n in range(6)]
     manifest = write_manifest(tmp_path, machines)
     out = tmp_path / "out"
-    run = subprocess.Popen(command(manifest, out, "-j", "1"), env=environment(root))
+    run = subprocess.Popen(command(manifest, out, "-j", "1"), env=environment(root), preexec_fn=hears_ctrl_c)
     for _ in range(600):
         if list((out / "items").glob("*/item.json")):
             break
@@ -196,7 +201,9 @@ list(pool.LocalRunner(1)([(choice.item, choice.key) for choice in choices], stor
 def test_ctrl_c_as_a_child_starts_ends_that_child_too(tmp_path: Path, inputs: Path, root: Path) -> None:
     manifest = write_manifest(tmp_path, TWO)
     call = [sys.executable, "-c", STOPPED_AS_IT_STARTS, str(manifest), str(tmp_path / "out")]
-    run = subprocess.run(call, env=environment(root), capture_output=True, text=True, timeout=60, check=False)
+    run = subprocess.run(
+        call, env=environment(root), preexec_fn=hears_ctrl_c, capture_output=True, text=True, timeout=60, check=False
+    )
     assert run.returncode == 130, run.stderr
     with pytest.raises(ProcessLookupError):
         os.kill(int(run.stdout), 0)
