@@ -36,10 +36,11 @@ def checked_inputs(
     documents: Sequence[Path] = (),
     settings: Sequence[str] = (),
     opinion: ModelOptions | None = None,
+    engines: Sequence[str] = (),
 ) -> Inputs:
-    """`YellowironError` for a template that does not load, settings it does not know, an output folder that cannot be
-    written, a model for a second opinion that is not configured, and files that are missing or plainly not what they
-    should be. Nothing is left behind."""
+    """`YellowironError` for a template that does not load, settings or engines that are not known, an output folder
+    that cannot be written, a model for a second opinion that is not configured, and files that are missing or plainly
+    not what they should be. Nothing is left behind."""
     keep_apart(out, [cad_file, *sheets])
     # The quickest first: a template takes half a second.
     cad.check_file(cad_file)
@@ -51,6 +52,11 @@ def checked_inputs(
     check_folder(out)
     if opinion is not None:
         Endpoint(opinion)
+    if engines:
+        from yellowiron.simulation.registry import find_engine
+
+        for engine in engines:
+            find_engine(engine)
     template = library.load_template(equipment_type)
     values, choices = specs.split_settings(settings, template)
     return Inputs(template, specs.parse_settings(values, template), choices)

@@ -116,12 +116,11 @@ def build(
     """
     clock = _Clock(progress)
     cad_file, out = Path(cad_file), Path(out)
-    _known(engines)
     # Whatever can be said against an input is said before anything slow.
     inputs = checked_inputs(
         equipment_type, cad_file, out, sheets=[Path(s) for s in sheets],
         alignment_file=Path(alignment_file) if alignment_file else None,
-        documents=[Path(d) for d in documents], settings=settings, opinion=opinion,
+        documents=[Path(d) for d in documents], settings=settings, opinion=opinion, engines=engines,
     )  # fmt: skip
     template, given, choices = inputs.template, inputs.given, inputs.choices
     own = library.own_template(equipment_type)
@@ -225,14 +224,6 @@ def _place(path: Path | str) -> str:
 def _earlier(alignment_file: Path | str | None, left: Path) -> Path | None:
     """The alignment file that was asked for, else the one that an earlier run `left`, if it did."""
     return Path(alignment_file) if alignment_file else left if left.exists() else None
-
-
-def _known(engines: Sequence[str]) -> None:
-    if engines:
-        from yellowiron.simulation.registry import find_engine
-
-        for engine in engines:
-            find_engine(engine)
 
 
 def _driven(machine_file: Path, engine: str, progress: Progress) -> tuple[dict[str, Any], tuple[Sweep, ...]]:

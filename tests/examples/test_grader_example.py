@@ -178,8 +178,7 @@ def test_the_wheels_steer_as_the_independent_solution_has_it(built: Built, linka
     k, chain = linkage.solve(), ClosedChain(built.mechanism)
     for degrees in (50.0, 30.0, -20.0, -40.0):
         angle = np.radians(degrees)
-        out = [(k.steer_length(sign * turn) - k.steer_length(0.0)) / 1000.0 for sign, turn in ((1.0, angle),)]
-        state = chain.solve({STEERING[0]: out[0]})
+        state = chain.solve({STEERING[0]: (k.steer_length(angle) - k.steer_length(0.0)) / 1000.0})
         assert chain.coordinate(state, "lean_yoke_l2knuckle_l_joint") == pytest.approx(angle, abs=1e-9)
         if degrees > 0.0:
             far = linkage.outer(angle)

@@ -11,10 +11,11 @@ import trimesh
 
 from kit.machines import small_machine
 from yellowiron.kinematics import Meeting, Outline, clearance_findings, complete, meetings
-from yellowiron.kinematics.clearance import DEEP, winding
+from yellowiron.kinematics.clearance import DEEP
 from yellowiron.model.geometry import Floats
 from yellowiron.model.mechanism import Body, Drive, Joint, Mechanism
 from yellowiron.support.convex.solids import convex
+from yellowiron.support.vectors import winding
 
 Y = (0.0, 1.0, 0.0)
 AT = (0.0, 0.0, 0.0)

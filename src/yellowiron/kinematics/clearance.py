@@ -19,6 +19,7 @@ from yellowiron.model.finding import Finding
 from yellowiron.model.geometry import Floats
 from yellowiron.model.mechanism import DEFAULT, ESTIMATE, UNKNOWN, Mechanism
 from yellowiron.support.convex.solids import Convex
+from yellowiron.support.vectors import winding
 
 DEEP = 0.02
 """Metres: what is no deeper than this only touches."""
@@ -192,19 +193,6 @@ def _deepest(one: _Body, other: _Body, placed: tuple[Floats, Floats], indices: t
     found = [drawn(pose) for pose in deepest]
     at = int(np.argmax(found))
     return found[at] - drawn(0), int(deepest[at]) - 1
-
-
-def winding(points: Floats, triangles: Floats) -> Floats:
-    """How often triangles (m, 3, 3) are wound around points (n, 3): ±1 inside of a closed surface, 0 outside, and
-    between them where it is open (van Oosterom and Strackee 1983; Jacobson et al. 2013)."""
-    a, b, c = (triangles[None, :, corner] - points[:, None] for corner in range(3))
-    la, lb, lc = (np.linalg.norm(each, axis=2) for each in (a, b, c))
-    volume = np.einsum("nmk,nmk->nm", a, np.cross(b, c))
-    over = la * lb * lc
-    over = over + np.einsum("nmk,nmk->nm", a, b) * lc
-    over = over + np.einsum("nmk,nmk->nm", b, c) * la
-    over = over + np.einsum("nmk,nmk->nm", c, a) * lb
-    return np.asarray(np.arctan2(volume, over).sum(axis=1) / (2.0 * np.pi))
 
 
 def clearance_findings(mechanism: Mechanism, found: Sequence[Meeting]) -> tuple[Finding, ...]:

@@ -1,4 +1,4 @@
-"""Vectors (3,) in any one frame: as tuples, their angles and distances."""
+"""Vectors (3,) in any one frame: as tuples, their angles and distances; what surfaces are wound around."""
 
 from __future__ import annotations
 
@@ -63,3 +63,16 @@ def line_through(points: Floats) -> tuple[Floats, Floats] | None:
         return None
     # The middle of the circle through three corners of a triangle.
     return points[0] + np.cross(u @ u * v - v @ v * u, normal) / (2.0 * normal @ normal), unit(normal)
+
+
+def winding(points: Floats, triangles: Floats) -> Floats:
+    """How often triangles (m, 3, 3) are wound around points (n, 3), in one frame: (n,), ±1 inside of a closed surface,
+    0 outside, and between them where it is open (van Oosterom and Strackee 1983; Jacobson et al. 2013)."""
+    a, b, c = (triangles[None, :, corner] - points[:, None] for corner in range(3))
+    la, lb, lc = (np.linalg.norm(each, axis=2) for each in (a, b, c))
+    volume = np.einsum("nmk,nmk->nm", a, np.cross(b, c))
+    over = la * lb * lc
+    over = over + np.einsum("nmk,nmk->nm", a, b) * lc
+    over = over + np.einsum("nmk,nmk->nm", b, c) * la
+    over = over + np.einsum("nmk,nmk->nm", c, a) * lb
+    return np.asarray(np.arctan2(volume, over).sum(axis=1) / (2.0 * np.pi))

@@ -20,13 +20,12 @@ from yellowiron.model.errors import YellowironError
 from yellowiron.model.geometry import Floats
 from yellowiron.model.mechanism import Body, BodyPart, BodyShape, Drive, Joint, Mechanism, Site
 from yellowiron.model.template import Follows, JointType, by_first_leader
-from yellowiron.support.record import RECORD
+from yellowiron.support.record import ENDLESS, RECORD
 from yellowiron.support.vectors import triple
 from yellowiron.usd.authoring.metadata import DOCUMENTS, FORMAT, from_json
 from yellowiron.usd.authoring.rotation import axis_of, principal_axes
 from yellowiron.usd.layers.drives import INSTANCES, per_usd_unit, to_usd_unit
 from yellowiron.usd.layers.mujoco import MIMIC, MIMIC_NAMES
-from yellowiron.usd.layers.physx import ENDLESS
 from yellowiron.usd.layers.sensors import read_sensors
 from yellowiron.usd.planning.pin_links import KIND as PIN_LINK
 from yellowiron.usd.planning.plan import HULL, HULL_SCALE, JOINTS, VISUALS

@@ -147,7 +147,7 @@ def variant_layer(
     sublayer: str,
     record: Mapping[str, Any],
     radii: Mapping[str, float],
-    tools: Mapping[str, str] = {},
+    tools: Mapping[str, str],
 ) -> Sdf.Layer:
     """A layer, in memory, that makes a variant of a base machine's file, which `sublayer` names from where the layer
     will be. `record` stays on the machine's prim, as `variant`; `radii`: wheel → factor of its radius; `tools`: body →

@@ -13,6 +13,7 @@ from yellowiron.alignment.spans import Spans
 from yellowiron.model.assembly import Assembly, Part
 from yellowiron.model.geometry import Floats, Shape
 from yellowiron.support.caching.remembered import remembered
+from yellowiron.support.vectors import winding
 
 SAMPLES = 12
 """Points of a part that are asked whether they are inside of another."""
@@ -111,14 +112,5 @@ def _sunk(inner: Solid, outer: Solid) -> float:
     beside = ((points >= outer.low) & (points <= outer.high)).all(axis=1)
     corners = outer.points[outer.shape.mesh.triangles] if beside.any() else np.zeros((0, 3, 3))
     for k in np.flatnonzero(beside):
-        within[k] = min(1.0, abs(_winding(corners - points[k])))
+        within[k] = min(1.0, abs(float(winding(points[k : k + 1], corners)[0])))
     return float(np.mean(within))
-
-
-def _winding(corners: Floats) -> float:
-    """How often triangles (m, 3, 3) go around the origin: their solid angles over 4π (van Oosterom, 1983)."""
-    a, b, c = corners[:, 0], corners[:, 1], corners[:, 2]
-    la, lb, lc = (np.linalg.norm(v, axis=1) for v in (a, b, c))
-    over = np.einsum("ij,ij->i", a, np.cross(b, c))
-    below = la * lb * lc + (a * b).sum(axis=1) * lc + (b * c).sum(axis=1) * la + (c * a).sum(axis=1) * lb
-    return float(np.arctan2(over, below).sum() / (2.0 * np.pi))

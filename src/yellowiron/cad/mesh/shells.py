@@ -14,6 +14,7 @@ from numpy.typing import NDArray
 from yellowiron.cad.mesh.components import linked
 from yellowiron.cad.mesh.measures import cross, welded
 from yellowiron.model.geometry import Floats, Mesh
+from yellowiron.support.vectors import winding
 
 _THIN = 0.02
 """Two triangles that face each other within this angle, radians, have no material between them."""
@@ -120,7 +121,7 @@ def solids(mesh: Mesh) -> Indices:
         )
         point = mesh.points[mesh.triangles[label == k][0, 0]]
         for other in sorted(np.flatnonzero(around).tolist(), key=lambda i: (sign * volume[i], i)):
-            if abs(_winding(mesh.points[mesh.triangles[label == other]], point)) > 0.5:
+            if abs(float(winding(point[None], mesh.points[mesh.triangles[label == other]])[0])) > 0.5:
                 home[k] = other
                 break
     used = np.unique(home[label], return_inverse=True)[1]
@@ -139,15 +140,6 @@ def piece_measures(mesh: Mesh, label: Indices, count: int) -> tuple[Floats, Floa
     np.minimum.at(low, label, corners.min(axis=1))
     np.maximum.at(high, label, corners.max(axis=1))
     return volume, low, high
-
-
-def _winding(corners: Floats, point: Floats) -> float:
-    """How often triangles (m, 3, 3) go around a point: the sum of their solid angles over 4π (van Oosterom, 1983)."""
-    a, b, c = (corners[:, i] - point for i in range(3))
-    la, lb, lc = (np.linalg.norm(v, axis=1) for v in (a, b, c))
-    over = np.einsum("ij,ij->i", a, cross(b, c))
-    below = la * lb * lc + (a * b).sum(axis=1) * lc + (b * c).sum(axis=1) * la + (c * a).sum(axis=1) * lb
-    return float(np.arctan2(over, below).sum() / (math.tau))
 
 
 def closed_pieces(triangles: Indices, label: Indices, count: int) -> NDArray[np.bool_]:

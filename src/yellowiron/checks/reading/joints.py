@@ -12,6 +12,7 @@ from yellowiron.checks.reading.attributes import axis_token, number, quaternion,
 from yellowiron.checks.reading.bodies import Poses, body_of, record_of, rotation_and_scale
 from yellowiron.checks.reading.spans import span
 from yellowiron.checks.values import ANGULAR, LINEAR, Side, StageDrive, StageJoint, Units, direction
+from yellowiron.support.record import ENDLESS
 
 _TYPES = {
     "PhysicsFixedJoint": "fixed",
@@ -36,8 +37,6 @@ _LEADERS = {"NewtonMimicAPI": "newton:mimicJoint", "PhysxMimicJointAPI": "physxM
 _EQUALITIES = "MjcEqualityJointAPI"
 _ACTUATORS = {"MjcActuator": "mjc:target", "NewtonActuator": "newton:targets"}
 _TENDON = "mjc:path"
-_ENDLESS = 1e9
-"""Degrees, or units of length: a limit that is none. PhysX couples pivots only where both have finite ones."""
 
 
 def read_joints(prims: list[Usd.Prim], poses: Poses, units: Units) -> tuple[StageJoint, ...]:
@@ -170,7 +169,7 @@ def _limits(prim: Usd.Prim, kind: str, freedoms: tuple[str, ...], units: Units) 
     if kind == "generic":
         names = (f"limit:{freedoms[0]}:physics:low", f"limit:{freedoms[0]}:physics:high")
     values = [number(prim, n) for n in names]
-    lower, upper = (None if v is None or abs(v) >= _ENDLESS else v * factor for v in values)
+    lower, upper = (None if v is None or abs(v) >= ENDLESS else v * factor for v in values)
     return lower, upper
 
 

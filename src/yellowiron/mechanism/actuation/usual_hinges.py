@@ -122,7 +122,8 @@ def hinges_driven_directly(
     points_of: Callable[[str], Floats],
     proportion: Proportion,
 ) -> tuple[Joint, ...]:
-    """The joints, those of `direct` (hinge → actuator) with what is usual of the type's."""
+    """The joints, those of `direct` (hinge → actuator) with what is usual of the type's. `points_of`: points (n, 3) of
+    a body, metres, machine frame as drawn."""
     turned = {
         j.name: Turned(np.asarray(j.anchor), np.asarray(j.axis), j.body0, j.body1)
         for j in joints

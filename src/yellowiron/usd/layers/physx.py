@@ -12,6 +12,7 @@ from pxr import Sdf
 
 from yellowiron.model.mechanism import Joint, Mechanism
 from yellowiron.model.template import by_first_leader
+from yellowiron.support.record import ENDLESS
 from yellowiron.usd.authoring.stage import Types, apply_schemas, over, set_attribute
 from yellowiron.usd.layers.articulation import articulation_roots
 from yellowiron.usd.layers.drives import INSTANCES, speed_limit
@@ -33,10 +34,6 @@ LOOPS_LAST = "physxScene:solveArticulationContactLast"
 """A scene's attribute: contacts and cut joints of articulations are solved after everything else. An excavator's worst
 pin then errs by 0.09 instead of 0.25 mm at 120 Hz, its boom lowered with a full bucket. Drives give way a fifth more: a
 loader's tilt cylinder with its rated payload ended 6.5 instead of 3.6 mm from its target, and its pins need it not."""
-
-ENDLESS = 1e9
-"""Degrees: a limit that is none. PhysX couples pivots only where both have finite ones, and takes these: wheels on one
-chain followed each other over many turns."""
 
 _VALUE_TYPES = {bool: Types.Bool, int: Types.Int, float: Types.Float}
 
