@@ -25,19 +25,21 @@ from yellowiron.library import load_template  # noqa: E402
 from yellowiron.mechanism.actuation.direct_drives import hinge_of  # noqa: E402
 from yellowiron.mechanism.actuation.proportion import FASTEST  # noqa: E402
 from yellowiron.mechanism.actuation.usual_hinges import Turned, angle_of, sense  # noqa: E402
-from yellowiron.model.mechanism import GRAVITY, Mechanism  # noqa: E402
+from yellowiron.model.mechanism import GRAVITY, Mechanism, rolling  # noqa: E402
 from yellowiron.usd import read_mechanism  # noqa: E402
 
 POINTS = 61
 STRONGEST = 1.0
 """Times weight and length: a hinge that takes more turns too little for what its cylinders lift."""
+UPRIGHT = 0.7
+"""Of an axis that steers: its part upwards."""
 LEAST = np.radians(2.0)
 """A hinge that turns less is not what the cylinders are for."""
 
 
-def measured(mechanism: Mechanism) -> Iterator[tuple[str, tuple[float, float, float, float]]]:
-    """Actuator → the least and the largest angle of its hinge (degrees), its speed (degrees/s) and its torque (times
-    weight and length)."""
+def measured(mechanism: Mechanism) -> Iterator[tuple[str, tuple[float, float, float, float], bool]]:
+    """Actuator, then the least and the largest angle of its hinge (degrees), its speed (degrees/s) and its torque
+    (times weight and length), then whether it steers a wheel: its angles are from the drawn pose."""
     template = load_template(mechanism.equipment_type)
     chain = ClosedChain(mechanism)
     hulls = {body.name: np.asarray(body.hull) for body in mechanism.bodies}
@@ -61,7 +63,8 @@ def measured(mechanism: Mechanism) -> Iterator[tuple[str, tuple[float, float, fl
         turn = np.unwrap(joint_values(chain, grid, joint, rotations)[order])
         # A joint turns its second body against its first.
         turn = turn * sense(tree[hinge].axis) * (1.0 if joint.body1 == tree[hinge].after else -1.0)
-        drawn = angle_of(hinge, tree, hulls.__getitem__)
+        steers = _steers(mechanism, tree[hinge])
+        drawn = 0.0 if steers else angle_of(hinge, tree, hulls.__getitem__)
         if np.ptp(turn) < LEAST or drawn is None:
             continue
         turn += drawn - np.interp(0.0, way, turn)
@@ -71,8 +74,17 @@ def measured(mechanism: Mechanism) -> Iterator[tuple[str, tuple[float, float, fl
         torque = slide.drive.strongest / float(np.median(rates)) / scale
         if torque > STRONGEST:
             continue
-        low, high = np.degrees([turn.min(), turn.max()])
-        yield actuator.name, (low, high, float(np.degrees(np.ptp(turn)) / seconds), torque)
+        # The outer wheel of a turn goes less far than the inner one: two that turn alike go as far as their mean.
+        half = 0.5 * float(np.ptp(turn))
+        low, high = np.degrees([-half, half] if steers else [turn.min(), turn.max()])
+        yield actuator.name, (low, high, float(np.degrees(np.ptp(turn)) / seconds), torque), steers
+
+
+def _steers(mechanism: Mechanism, hinge: Turned) -> bool:
+    """Whether it turns a knuckle: one wheel rolls on what it turns, about an upright axis."""
+    wheels = rolling(mechanism)
+    own = [j for j in mechanism.joints if hinge.after in (j.body0, j.body1) and {j.body0, j.body1} & wheels]
+    return abs(hinge.axis[2]) > UPRIGHT and len(own) == 1
 
 
 def hinges(mechanism: Mechanism) -> dict[str, Turned]:
@@ -93,16 +105,20 @@ def hinges(mechanism: Mechanism) -> dict[str, Turned]:
 
 def main() -> None:
     found: dict[str, dict[str, list[tuple[float, float, float, float]]]] = {}
+    steering: dict[str, set[str]] = {}
     for file in sys.argv[1:]:
         mechanism = read_mechanism(file)
-        for name, row in measured(mechanism):
+        for name, row, steers in measured(mechanism):
+            if steers:
+                steering.setdefault(mechanism.equipment_type, set()).add(name)
             found.setdefault(mechanism.equipment_type, {}).setdefault(name, []).append(row)
             sys.stdout.write(f"{mechanism.name} {name}: {' '.join(f'{x:.3g}' for x in row)}\n")
     for kind, rows in found.items():
         table = {}
         for name, own in rows.items():
             low, high, speed, torque = np.mean(own, axis=0).tolist()
-            table[name] = {"low": round(low), "high": round(high), "speed": float(f"{speed:.2g}"),
+            counted = {"from": "drawn"} if name in steering.get(kind, ()) else {}
+            table[name] = {"low": round(low), "high": round(high), **counted, "speed": float(f"{speed:.2g}"),
                            "torque": float(f"{torque:.2g}")}  # fmt: skip
         path = ROOT / "src/yellowiron/library/data" / kind / "hinges.json"
         lines = ",\n".join(f'  "{name}": {json.dumps(row)}' for name, row in table.items())

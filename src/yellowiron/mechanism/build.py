@@ -17,10 +17,12 @@ from yellowiron.mechanism.actuation.proportion import proportion_of
 from yellowiron.mechanism.actuation.usual_hinges import hinges_driven_directly
 from yellowiron.mechanism.bodies import body, mass
 from yellowiron.mechanism.bodies.choice import Choice
+from yellowiron.mechanism.bodies.hidden_knuckles import with_knuckles
 from yellowiron.mechanism.bodies.hidden_wheels import hidden_wheels, with_wheels
 from yellowiron.mechanism.joints import chains
 from yellowiron.mechanism.joints.followers import with_followers
 from yellowiron.mechanism.joints.frames import JointFrame, joint_frames, weld
+from yellowiron.mechanism.joints.kingpins import with_kingpins
 from yellowiron.mechanism.joints.planarity import follow_first, make_parallel
 from yellowiron.mechanism.joints.tree import Tree, links, loop_groups, loose_bodies, planar_loops
 from yellowiron.mechanism.placement import Placement, ancestors, place
@@ -70,13 +72,15 @@ def build_mechanism(
     # Where the parts and the joints are.
     placement, findings = place(assembly, template, alignment)
     template = _standing(template, placement, assembly.name, findings)
-    template = _as_drawn(template, placement, findings)
+    whole, template = template, _as_drawn(template, placement, findings)
     wheels = hidden_wheels(placement, template, findings)
     frames, remarks = joint_frames(placement, template, wheels)
     findings += remarks
     frames = without_cylinders(template, frames, standing or {})
     template = cylinders.with_leaders(template, frames, findings)
-    template, direct = with_direct_hinges(template, frames, placement, standing or {}, findings)
+    template, frames, direct, knuckles = with_kingpins(whole, template, frames, placement, findings)
+    template, hinges = with_direct_hinges(template, frames, placement, standing or {}, findings)
+    direct |= hinges
 
     # Which joints make the tree, which close its loops; axes of a loop exactly parallel.
     floating = chains.heads(placement, template, frames)
@@ -119,10 +123,11 @@ def build_mechanism(
 
     # The bodies.
     findings += weighed
-    drawn = [b for b in tree.bodies if b not in wheels]
+    drawn = [b for b in tree.bodies if b not in wheels and b not in knuckles]
     origins = _origins(tree, frames) | {b: clean_triple(_middle(placement, b)) for b in floating}
     tokens = Choice(template, documents.collision if documents is not None else {}, template.collision)
     bodies = body.bodies(drawn, origins, placement, masses, tokens, findings)
+    bodies = with_knuckles(bodies, knuckles, findings)
     bodies = with_wheels(bodies, tree.bodies, wheels, placement, masses, findings)
 
     # What is named and what is sensed on it.

@@ -12,7 +12,7 @@ from yellowiron.model.sensor import SensorTemplate
 
 JointType = Literal["fixed", "distance", "spherical", "revolute", "prismatic"]
 DriveType = Literal["linear", "angular"]
-Coupling = Literal["chain", "gear", "rope", "oil"]
+Coupling = Literal["chain", "gear", "rope", "oil", "rod"]
 Direction = Literal["lengthwise", "lateral", "vertical"]
 Choices = Mapping[str, tuple[str, ...]]
 """Variant name → the choices under which an entry exists; empty: always."""
@@ -280,12 +280,14 @@ class Usual:
 class UsualHinge:
     """How the hinge that an actuator's cylinders turn usually moves: from the angle `low` to `high` (rad, from the line
     of what it is on to that of what it turns), at a `speed` (rad/s), with a `torque` of so many times the machine's
-    weight times the diagonal of its box."""
+    weight times the diagonal of its box. `from_drawn`: the angles are counted from the drawn pose instead, in which
+    wheels point straight ahead."""
 
     low: float
     high: float
     speed: float
     torque: float
+    from_drawn: bool = False
 
 
 @dataclass(frozen=True)

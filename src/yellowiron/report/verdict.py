@@ -15,6 +15,7 @@ _GUESS = "ALN016"
 _BARE = {
     "MEC013": "driven at its hinge, its cylinder is missing",
     "MEC018": "driven at its hinge, its cylinder does not work as it was found",
+    "MEC038": "at its wheels, no knuckle is drawn",
 }
 
 

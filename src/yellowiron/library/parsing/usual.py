@@ -41,5 +41,7 @@ def read_hinges(document: Document, actuators: tuple[ActuatorTemplate, ...]) -> 
         low, high = (math.radians(entry[end]) for end in ("low", "high"))
         if low >= high:
             raise TemplateError("The range is empty", where=document.at(name), hint="low is less than high, degrees.")
-        found[name] = UsualHinge(low, high, math.radians(entry["speed"]), entry["torque"])
+        found[name] = UsualHinge(
+            low, high, math.radians(entry["speed"]), entry["torque"], entry.get("from", "") == "drawn"
+        )
     return found

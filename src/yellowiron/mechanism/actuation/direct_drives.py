@@ -3,16 +3,21 @@
 from __future__ import annotations
 
 import math
+import re
 from collections.abc import Callable, Collection, Iterator, Mapping
 from dataclasses import replace
+
+import networkx
 
 from yellowiron.mechanism.joints.frames import JointFrame
 from yellowiron.mechanism.placement import Placement
 from yellowiron.model.finding import Finding
 from yellowiron.model.mechanism import PROVISIONAL, STATED, Drive
-from yellowiron.model.template import ActuatorTemplate, CylinderTemplate, JointTemplate, Template
+from yellowiron.model.template import ActuatorTemplate, CylinderTemplate, Follows, JointTemplate, Template
 
 _PINS = "Check the pins of their linkage (in the studio, or by 'joints' in the alignment)."
+_SIDES = re.compile(r"(?<=_)[lr](?=_)")
+"""The side in a joint's name."""
 _LONGEST = 6
 """Joints from a barrel round to its rod, at most."""
 
@@ -44,8 +49,8 @@ def with_direct_hinges(
     those hinges, each with its actuator. `standing` says of slides that were found why their cylinders cannot do it
     (MEC018).
 
-    The hinge is the one between the largest two bodies on any way from the barrel round to the rod, over the template's
-    joints, that the CAD model has; one that another actuator's cylinders move is not taken.
+    The hinge is one on any way from the barrel round to the rod, over the template's joints, that the CAD model has
+    (`hinge_of`); one that another actuator's cylinders move is not taken.
     """
     claimed = {name for actuator in template.actuators for name in actuator.joints}
 
@@ -72,8 +77,29 @@ def with_direct_hinges(
         actuators.append(actuator)
     if not direct:
         return template, direct
-    joints = tuple(replace(j, drive="angular") if j.name in direct else j for j in template.joints)
+    led = {twin: name for name in direct if (twin := _idle_twin(name, bodies, claimed)) is not None}
+    joints = tuple(
+        replace(j, drive="angular") if j.name in direct
+        else replace(j, follows=Follows(led[j.name], kind="rod")) if j.name in led
+        else j
+        for j in template.joints
+    )  # fmt: skip
     return replace(template, actuators=tuple(actuators), joints=joints), direct
+
+
+def _idle_twin(hinge: str, bodies: Mapping[str, tuple[str, str]], claimed: Collection[str]) -> str | None:
+    """The hinge on the machine's other side that would turn with one that is driven, by a rod that is not there: of two
+    steered knuckles without their tie rod. None where something else moves it, or joins the two."""
+    twin = _SIDES.sub(lambda side: "r" if side[0] == "l" else "l", hinge, count=1)
+    if twin == hinge or twin not in bodies or twin in claimed:
+        return None
+    shared = {*bodies[hinge]} & {*bodies[twin]}
+    if len(shared) != 1:
+        return None
+    own, other = ({*bodies[name]} - shared for name in (hinge, twin))
+    beyond = networkx.Graph(pair for pair in bodies.values() if not shared & {*pair})
+    beyond.add_nodes_from(own | other)
+    return None if networkx.has_path(beyond, *own, *other) else twin
 
 
 def _told(actuator: str, hinge: str, reason: str | None, *, usual: bool) -> Finding:
@@ -108,14 +134,21 @@ def hinge_of(
     size: Callable[[str], float],
     claimed: Collection[str] = (),
 ) -> str | None:
-    """The hinge that an actuator's cylinders turn, of those that are there (joint → its `bodies`) and not `claimed`."""
+    """The hinge that an actuator's cylinders turn, of those that are there (joint → its `bodies`) and not `claimed`:
+    that between the largest two bodies, before all one of a body that a wheel rolls on."""
     # What a barrel or a rod hangs on moves nothing but that.
     own = {name for each in template.actuators for c in each.cylinders for name in c.pins}
     ways = sorted((way for c in actuator.cylinders for way in _ways(template, c)), key=len)
     names = dict.fromkeys(j.name for way in ways for j in way if j.type == "revolute")
     fit = [name for name in names if name in bodies and name not in own and name not in claimed]
     sizes = {b: size(b) for name in fit for b in bodies[name]}
-    return max(fit, key=lambda name: min(sizes[b] for b in bodies[name]), default=None)
+    wheels = {role.name for role in template.roles if role.kind == "wheel"}
+    bearing = {b for pair in bodies.values() if wheels & {*pair} for b in pair}
+
+    def weight(name: str) -> tuple[bool, float]:
+        return bool(bearing & {*bodies[name]}), min(sizes[b] for b in bodies[name])
+
+    return max(fit, key=weight, default=None)
 
 
 def _ends(frames: Mapping[str, JointFrame], joint: str | None) -> tuple[str, ...]:
@@ -126,10 +159,10 @@ def _ways(template: Template, cylinder: CylinderTemplate) -> Iterator[list[Joint
     """Joints from a cylinder's barrel to its rod, without its slide: every way that passes no body twice."""
     by_name = {j.name: j for j in template.joints}
     slide, hung = by_name.get(cylinder.slide), by_name.get(cylinder.barrel_joint or "")
-    if slide is None or hung is None:
+    if slide is None or (hung is None and cylinder.barrel_joint is not None):
         return
     ends = template.bodies_of(slide)
-    barrel = next((b for b in ends if b in template.bodies_of(hung)), ends[0])
+    barrel = next((b for b in ends if hung is not None and b in template.bodies_of(hung)), ends[0])
     rod = next((b for b in ends if b != barrel), None)
     beside: dict[str | None, list[tuple[JointTemplate, str | None]]] = {}
     known = {role.name for role in template.roles}

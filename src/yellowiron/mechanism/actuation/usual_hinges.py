@@ -134,7 +134,7 @@ def hinges_driven_directly(
     for joint in joints:
         usual = template.hinges.get(direct.get(joint.name, ""))
         if usual is not None and joint.name in turned and joint.drive is not None:
-            drawn = angle_of(joint.name, turned, points_of)
+            drawn = None if usual.from_drawn else angle_of(joint.name, turned, points_of)
             joint = with_usual(joint, usual, drawn, proportion, kind)
         made.append(joint)
     return tuple(made)

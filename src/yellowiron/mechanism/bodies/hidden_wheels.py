@@ -144,8 +144,6 @@ def with_wheels(
 ) -> tuple[Body, ...]:
     """The bodies in their `order`, hidden wheels among them; those that carry the tracks are lighter by them, and the
     tracks' parts have no colliders. The wheels' materials come into those that `weighed` has in use."""
-    if not wheels:
-        return tuple(bodies)
     by_name = {b.name: b for b in bodies}
     masses = {p.part: p.mass for b in bodies for p in b.parts}
     for name, wheel in wheels.items():
@@ -154,7 +152,7 @@ def with_wheels(
     for carrier in dict.fromkeys(w.carrier for w in wheels.values()):
         made = [by_name[n] for n, w in wheels.items() if w.carrier == carrier]
         stood_for = frozenset(placement.ids(row for w in wheels.values() if w.carrier == carrier for row in w.rows))
-        by_name[carrier] = _lighter(_bare(by_name[carrier], stood_for), made, findings)
+        by_name[carrier] = lighter(_bare(by_name[carrier], stood_for), made, findings)
         by_name[carrier] = _between(by_name[carrier], [w for w in wheels.values() if w.carrier == carrier], placement)
     return tuple(by_name[name] for name in order)
 
@@ -234,14 +232,13 @@ def _moments(body: Body) -> Moments:
     return Moments(body.mass, np.array(body.center_of_mass), 0.5 * np.trace(inertia) * np.eye(3) - inertia)
 
 
-def _lighter(body: Body, wheels: Sequence[Body], findings: list[Finding]) -> Body:
-    """A body without the mass and the moments of its hidden wheels."""
-    mine, theirs = _moments(body), combine(_moments(w) for w in wheels)
+def lighter(body: Body, hidden: Sequence[Body], findings: list[Finding], *, what: str = "hidden wheels") -> Body:
+    """A body without the mass and the moments of the hidden ones that stand for parts of it; MEC071 where it has not
+    so much."""
+    mine, theirs = _moments(body), combine(_moments(one) for one in hidden)
     mass = mine.mass - theirs.mass
     if mass < LEFT_OVER * mine.mass:
-        words = (
-            f"Its hidden wheels weigh {theirs.mass:.0f} kg of its {mine.mass:.0f} kg: it keeps its own mass besides."
-        )
+        words = f"Its {what} weigh {theirs.mass:.0f} kg of its {mine.mass:.0f} kg: it keeps its own mass besides."
         findings.append(Finding("MEC071", "warning", body.name, words, "Lower the mass in the hidden rule."))
         return body
     center = (mine.mass * mine.center - theirs.mass * theirs.center) / mass
@@ -254,5 +251,5 @@ def _lighter(body: Body, wheels: Sequence[Body], findings: list[Finding]) -> Bod
         mass=mass,
         center_of_mass=clean_triple(center),
         inertia=left.inertia,
-        source=f"{body.source}; less {theirs.mass:.5g} kg of hidden wheels",
+        source=f"{body.source}; less {theirs.mass:.5g} kg of {what}",
     )
