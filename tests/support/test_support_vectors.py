@@ -6,16 +6,19 @@ import math
 
 import numpy as np
 import pytest
+import trimesh
 from hypothesis import given
 from hypothesis import strategies as st
 
 from yellowiron.support.vectors import (
+    Wound,
     angle_between,
     angle_between_lines,
     clean_triple,
     distance_from_line,
     triple,
     unit,
+    winding,
 )
 
 ANGLES = st.floats(0.0, math.pi)
@@ -58,3 +61,16 @@ def test_triples_are_plain_floats() -> None:
     assert math.copysign(1.0, clean_triple((0.0, -0.0, 1.0))[1]) == 1.0
     with pytest.raises(ValueError, match="unpack"):
         triple((1.0, 2.0))
+
+
+@pytest.mark.parametrize("closed", [True, False])
+def test_patches_are_wound_as_their_triangles_are(closed: bool) -> None:
+    ball = trimesh.creation.icosphere(5)
+    triangles = np.asarray(ball.triangles)[: None if closed else 15000] * (1.0, 2.0, 0.3)
+    points = np.random.default_rng(3).uniform(-2.2, 2.2, (60, 3)) * (0.5, 1.0, 0.2)
+    points[0] = triangles[0].mean(axis=0) * 0.999
+    exact = winding(points, triangles)
+    assert Wound.of(triangles).around(points) == pytest.approx(exact, abs=0.02)
+    assert np.abs(exact).max() > 0.9
+    assert Wound.of(triangles[:5]).around(points) == pytest.approx(winding(points, triangles[:5]), abs=1e-9)
+    assert Wound.of(triangles[:0]).around(points) == pytest.approx(np.zeros(60))

@@ -19,7 +19,7 @@ from yellowiron.model.finding import Finding
 from yellowiron.model.geometry import Floats
 from yellowiron.model.mechanism import DEFAULT, ESTIMATE, UNKNOWN, Mechanism
 from yellowiron.support.convex.solids import Convex
-from yellowiron.support.vectors import winding
+from yellowiron.support.vectors import Wound
 
 DEEP = 0.02
 """Metres: what is no deeper than this only touches."""
@@ -82,6 +82,10 @@ class _Body:
     def box(self) -> tuple[Floats, Floats]:
         return self.lows.min(axis=0), self.highs.max(axis=0)
 
+    @functools.cached_property
+    def wound(self) -> Wound:
+        return Wound.of(self.outline.triangles)
+
     def depths(self, points: Floats) -> Floats:
         """How deep points (n, 3) are in one of its solids, 0 for those outside."""
         found = np.zeros(len(points))
@@ -105,7 +109,7 @@ class _Body:
         rows = rows[depths[rows] > 0.0]
         if not len(rows):
             return 0.0
-        inside = np.abs(winding(points[rows], self.outline.triangles)) > _INSIDE
+        inside = np.abs(self.wound.around(points[rows])) > _INSIDE
         return float((depths[rows] * inside).max())
 
 

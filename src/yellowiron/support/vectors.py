@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import math
 from collections.abc import Sequence
+from dataclasses import dataclass
 from typing import Any
 
 import numpy as np
@@ -14,6 +15,10 @@ Triple = tuple[float, float, float]
 
 _SHORT = 1e-9
 """Metres: points that are nearer are one."""
+_PATCH = 64
+"""Triangles that are taken for one patch by points far from it: farther than …"""
+_FAR = 3.0
+"""… so many of its radii, where what is left out is below a hundredth of a winding number."""
 _FLAT = 1e-3
 """Three points of a circle are this far (share of their distance) from one line."""
 
@@ -76,3 +81,59 @@ def winding(points: Floats, triangles: Floats) -> Floats:
     over = over + np.einsum("nmk,nmk->nm", b, c) * la
     over = over + np.einsum("nmk,nmk->nm", c, a) * lb
     return np.asarray(np.arctan2(volume, over).sum(axis=1) / (2.0 * np.pi))
+
+
+@dataclass(frozen=True, eq=False)
+class Wound:
+    """Triangles (n, 3, 3) for many questions what they are wound around: from afar a patch of them is its middle and
+    its area vector (a dipole; Barill et al. 2018). `first` (patches + 1,) says where each begins; `middles` and `areas`
+    (patches, 3); `radii` (patches,)."""
+
+    triangles: Floats
+    first: NDArray[np.int64]
+    middles: Floats
+    areas: Floats
+    radii: Floats
+
+    @staticmethod
+    def of(triangles: Floats) -> Wound:
+        """Patches of neighbouring triangles."""
+        centers = triangles.mean(axis=1)
+        rows = np.concatenate([np.zeros(0, dtype=np.int64), *_halved(centers, np.arange(len(centers)))])
+        first = np.append(np.arange(0, len(rows), _PATCH), len(rows))
+        sorted_ = triangles[rows]
+        normals = 0.5 * np.cross(sorted_[:, 1] - sorted_[:, 0], sorted_[:, 2] - sorted_[:, 0])
+        weights = np.linalg.norm(normals, axis=1) + 1e-300
+        patches = [slice(a, b) for a, b in zip(first[:-1].tolist(), first[1:].tolist(), strict=True)]
+        middles = [np.average(sorted_[p].mean(axis=1), axis=0, weights=weights[p]) for p in patches]
+        radii = [
+            np.sqrt(((sorted_[p] - middle) ** 2).sum(axis=2).max()) for p, middle in zip(patches, middles, strict=True)
+        ]
+        areas = [normals[p].sum(axis=0) for p in patches]
+        shape = (len(patches), 3)
+        return Wound(
+            sorted_, first, np.reshape(middles, shape), np.reshape(areas, shape), np.asarray(radii, dtype=np.float64)
+        )
+
+    def around(self, points: Floats) -> Floats:
+        """How often they are wound around points (n, 3): (n,), as `winding` says, to about a hundredth."""
+        way = self.middles - points[:, None]
+        distance = np.linalg.norm(way, axis=2)
+        near = distance < _FAR * self.radii
+        dipole = np.einsum("npk,pk->np", way, self.areas) / np.maximum(distance, 1e-300) ** 3
+        total = np.where(near, 0.0, dipole).sum(axis=1) / (4.0 * math.pi)
+        for row, patches in enumerate(near):
+            own = [self.triangles[self.first[p] : self.first[p + 1]] for p in np.flatnonzero(patches).tolist()]
+            if own:
+                total[row] += winding(points[row : row + 1], np.concatenate(own))[0]
+        return np.asarray(total)
+
+
+def _halved(centers: Floats, rows: NDArray[np.int64]) -> list[NDArray[np.int64]]:
+    """Rows in patches of neighbours, of `_PATCH` each but the last: halved across the widest way, again and again."""
+    if len(rows) <= _PATCH:
+        return [rows]
+    own = centers[rows]
+    order = np.argsort(own[:, int(np.argmax(np.ptp(own, axis=0)))], kind="stable")
+    half = _PATCH * ((len(rows) // _PATCH + 1) // 2)
+    return _halved(centers, rows[order[:half]]) + _halved(centers, rows[order[half:]])
