@@ -92,6 +92,29 @@ def test_knuckles_without_their_linkage_turn_together(
     assert np.asarray(other.axis) @ np.asarray(driven.axis) > 0.9
 
 
+@pytest.mark.parametrize(("kind", "draw", "end", "way", "most"), CASES)
+def test_a_linkage_that_reaches_no_knuckle_steers_nothing(
+    kind: str, draw: Callable[[], Machine], end: str, way: float, most: float
+) -> None:
+    built = without(draw(), kind, ("knuckle",))
+    wheels = [built.joint(f"{end}_wheel_{side}_joint") for side in "lr"]
+    assert [w.body0 for w in wheels] == ["knuckle_l", "knuckle_r"]
+    assert "MEC038" in {f.code for f in built.findings}
+    # The cylinder stands as drawn; no loop is left that could lock the wheels.
+    steering = next(a for a in built.actuators if a.name == "steering")
+    assert not steering.cylinders and steering.joints[0].joint.endswith("knuckle_l_joint")
+    assert not any("tie_rod" in j.name and "knuckle" in j.name for j in built.joints)
+    assert built.mobility is not None and built.mobility.computed == built.mobility.expected
+
+
+def test_one_knuckle_of_two_keeps_its_linkage() -> None:
+    built = without(lift_truck(3, "duplex"), "forklift", ("knuckle_r", "tie_rod_r"))
+    assert "MEC038" not in {f.code for f in built.findings}
+    assert built.joint("rear_wheel_l_joint").body0 == "knuckle_l"
+    assert built.joint("rear_wheel_r_joint").body0 == "steer_axle"
+    assert next(a for a in built.actuators if a.name == "steering").cylinders
+
+
 def test_what_is_drawn_whole_is_steered_by_its_cylinder() -> None:
     built = without(lift_truck(3, "duplex"), "forklift", ())
     assert "MEC038" not in {f.code for f in built.findings}

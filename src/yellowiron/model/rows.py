@@ -153,7 +153,8 @@ def across_absent(template: Template, present: Collection[str]) -> Template:
 def without_absent_axles(template: Template, present: Collection[str]) -> Template:
     """The template (its variants decided) without the axles that no part is drawn for: of the bodies that are not
     `present`, those that hold nothing but wheels on the body above them, alone or together (an axle with its knuckles,
-    tie rods and steering cylinder). Their wheels, and what else moves with them, then move on that body."""
+    tie rods and steering cylinder). Their wheels, and what else moves with them, then move on that body. So does the
+    one wheel of a knuckle that is not drawn between an axle and tie rods that are: these no longer reach it."""
     wheels = {r.name for r in template.roles if r.kind == "wheel"}
     known = [j for j in template.joints if all(template.knows(part.partition("[")[0]) for part in j.parts)]
     ends = {j.name: template.bodies_of(j) for j in known}
@@ -169,10 +170,13 @@ def without_absent_axles(template: Template, present: Collection[str]) -> Templa
         carriers = {above[b] for b in group} - group
         if len(carriers) == 1 and carriers <= others and others & wheels and others <= wheels | carriers:
             absent |= group
+    knuckles = {b for b in open_ones if len(beside.get(b, set()) & wheels) == 1 and above[b] in present} - absent
+    absent |= knuckles
     if not absent:
         return template
     merged = replace(template, roles=tuple(replace(r, rigid=r.rigid and r.name not in absent) for r in template.roles))
     gone = {j.name for j in known if absent & {*ends[j.name]} and len(set(merged.bodies_of(j))) == 1}
+    gone |= {j.name for j in known if knuckles & {*ends[j.name]} and not wheels & {*ends[j.name]}}
     return replace(merged, joints=tuple(j for j in template.joints if j.name not in gone))
 
 

@@ -91,8 +91,8 @@ def with_kingpins(
 def _steered(
     whole: Template, drawn: Template, frames: Mapping[str, JointFrame], placement: Placement
 ) -> Iterator[_Steered]:
-    """The wheels that an actuator of the whole template steers by cylinders of which none is there, on knuckles that
-    are not drawn: bodies that carry a wheel each, and that the cylinders reach without passing what carries them."""
+    """The wheels that an actuator of the whole template steers by knuckles of which none is drawn: bodies that carry a
+    wheel each, and that its cylinders reach without passing what carries them."""
     joints = [j for j in whole.joints if all(whole.knows(part.partition("[")[0]) for part in j.parts)]
     ends = {j.name: (str(whole.bodies_of(j)[0]), str(whole.bodies_of(j)[1])) for j in joints}
     wheels = {r.name for r in whole.roles if r.kind == "wheel" and r.rigid}
@@ -101,10 +101,7 @@ def _steered(
         for body, other in (pair, pair[::-1]):
             if other in wheels:
                 carried.setdefault(body, set()).add(other)
-    slides = {
-        a.name: [c.slide for c in a.cylinders]
-        for a in whole.actuators if a.cylinders and not any({*c.joints} <= frames.keys() for c in a.cylinders)
-    }  # fmt: skip
+    slides = {a.name: [c.slide for c in a.cylinders] for a in whole.actuators if a.cylinders}
     for joint in joints:
         wheel = next((b for b in ends[joint.name] if b in wheels), None)
         knuckle = next((b for b in ends[joint.name] if b != wheel), "")
@@ -117,6 +114,8 @@ def _steered(
         linkage = networkx.Graph(pair for pair in ends.values() if carrier not in pair and not wheels & {*pair})
         linkage.add_node(knuckle)
         reached = networkx.node_connected_component(linkage, knuckle)
+        if any(placement.has_body(b) and len(carried.get(b, ())) == 1 for b in reached):
+            continue
         actuator = next((a for a, own in slides.items() if any({*ends[s]} & reached for s in own)), None)
         if actuator is not None:
             above = whole.body_of(str(whole.role(knuckle).parent))
