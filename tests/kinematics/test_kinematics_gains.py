@@ -184,3 +184,16 @@ def test_what_is_heavy_is_held_softer_and_a_short_stroke_stiffer():
     assert heavy.damping / (2.0 * math.sqrt(heavy.stiffness * 1e6)) == pytest.approx(0.2)
     assert position_gains(drive, 1e6, 1e6, softest=3e7).stiffness == pytest.approx(3e7)
     assert position_gains(drive, 1e6, 1e6, softest=1e12).stiffness == pytest.approx(200.0 * 1e6)
+
+
+def test_a_cylinder_whose_force_nothing_gives_is_as_strong_both_ways() -> None:
+    """One way stayed without a limit: the file said infinite, and its record what holds the weight."""
+    machine = crane()
+    unlimited = Drive("position", 0.0, 0.0, math.inf, 0.3, HELD, reverse_force=math.inf)
+    joints = tuple(replace(j, drive=unlimited) if j.name == "boom_ram" else j for j in machine.joints)
+    cylinders = tuple(replace(c, push_force=0.0, pull_force=0.0) for c in machine.cylinders)
+    done = complete(replace(machine, joints=joints, cylinders=cylinders))
+    drive = done.joint("boom_ram").drive
+    assert drive is not None and 1e4 < drive.max_force < 1e6
+    assert drive.reverse_force == drive.max_force == drive.strongest
+    assert "KIN015" in {f.code for f in done.findings}

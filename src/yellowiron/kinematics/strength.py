@@ -97,7 +97,7 @@ def strong_enough(chain: ClosedChain, grids: list[PoseGrid], joints: dict[str, J
             )
             findings.append(Finding("KIN015", "warning", name, words, "Give pressure and weight, or a sheet."))
             source = f"{drive.source}; {_SPARE:g} times the machine's own weight on it"
-            back = None if drive.reverse_force is None else factor * drive.reverse_force
+            back = None if drive.reverse_force is None else factor * (drive.reverse_force if known else 1.0)
             stronger = replace(drive, max_force=force, reverse_force=back, source=source)
             joints[name] = replace(joints[name], drive=stronger)
     return tuple(findings)
