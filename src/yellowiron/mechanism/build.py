@@ -111,6 +111,7 @@ def build_mechanism(
     stated = drives.stated_drives(template, frames, findings)
     powered |= stated
     actuators = drives.actuators(template, frames, fitted, stated, findings)
+    findings = _told_once(findings, whole)
     slides = {f.cylinder.slide: f for group in fitted.values() for f in group}
     joints = tuple(
         _joint(_sourced(frame, alignment), tree, slides, powered, specifications, findings) for frame in frames.values()
@@ -191,6 +192,18 @@ def _as_drawn(template: Template, placement: Placement, findings: list[Finding])
             words = f"No part of the CAD model is '{name}': {what} '{merged.body_of(name)}'."
             findings.append(Finding("MEC017", "warning", name, words, "Give its parts that role in the alignment."))
     return merged
+
+
+_IN_WORDS = ("MEC013", "MEC026", "MEC038")
+"""Codes that say of an actuator that it has to do without its cylinders."""
+
+
+def _told_once(findings: Sequence[Finding], template: Template) -> list[Finding]:
+    """The findings, those on single joints of cylinders that are not drawn notes only where it is said what moves (or
+    does not) instead."""
+    without = {f.where for f in findings if f.code in _IN_WORDS}
+    theirs = {name for a in template.actuators if a.name in without for c in a.cylinders for name in c.joints}
+    return [replace(f, severity="info") if f.code == "MEC002" and f.where in theirs else f for f in findings]
 
 
 def _weld_loose(

@@ -39,6 +39,8 @@ _BY_EYE = "geometry: rod eye against gland"
 WALL = 0.82
 """Bore over outer diameter of a barrel that shows none: welded cylinders have walls of about a tenth of their bore."""
 
+_ENGAGED = 0.25
+"""Of a section: so much of it stays in the one it slides in. Masts and telescopes keep a fifth to a third."""
 _DEAD, _SHARE, _LEAST = 4.0, 0.62, 0.4
 """A closed cylinder is longer than its stroke by so many bores, its stroke the second share of it where the bore is not
 known, and never less than the third: of the six of the two examples 3.2 to 4.9 bores, 0.48 to 0.69."""
@@ -264,7 +266,8 @@ def _fit(one: _Sizes, group: list[_Sizes], work: _Work) -> FittedCylinder:
 
 def _stroke(one: _Sizes, drawn: float, work: _Work) -> Known:
     """The stroke: set by hand, else a document's limit of the slide, else the sheet's, else the template's limit, else
-    the piston's travel in the CAD model, else the template's default, else what a cylinder of its length has."""
+    the piston's travel in the CAD model, else what its sections allow that slide in each other, else the template's
+    default, else what a cylinder of its length has."""
     printed, travel, slide = work.printed("stroke"), one.geometry.travel, one.template.slide
     joint = work.frames[slide].joint
     limited = _limited(joint, work)
@@ -281,6 +284,9 @@ def _stroke(one: _Sizes, drawn: float, work: _Work) -> Known:
     if travel is not None:
         found = Known(travel, f"geometry: piston travel {_mm(travel)}")
         words = f"it is the piston's travel in the CAD model, {_mm(travel)}"
+    elif (sections := _sections_stroke(one, work)) is not None:
+        found = Known(sections, f"{ESTIMATE}: as its sections stay in each other, {_mm(sections)}")
+        words = f"{_mm(sections)} is taken, over which a quarter of '{one.rod}' stays in '{one.barrel}'"
     elif (assumed := work.assumed("stroke")) is not None:
         found, words = assumed, f"it is the template's, {_mm(assumed.value)}"
     elif not drawn:
@@ -292,6 +298,21 @@ def _stroke(one: _Sizes, drawn: float, work: _Work) -> Known:
     name = work.actuator.specifications.get("stroke", "the stroke")
     work.warn("MEC023", slide, f"No sheet gives '{name}': {words}.", work.setting("stroke"))
     return found
+
+
+def _sections_stroke(one: _Sizes, work: _Work) -> float | None:
+    """How far a body may slide out of another one that it is guided in (a mast's section, a telescope's), so that the
+    last `_ENGAGED` of it stays in; None of cylinders with pins, and of bodies that are not in each other."""
+    entry = one.template
+    if entry.pins or entry.rod_through:
+        return None
+    slide = work.frames[entry.slide]
+    axis = slide.axis if slide.bodies[0] == one.barrel else -slide.axis
+    outer, inner = (work.placement.points_of(work.placement.rows_of_body(b)) @ axis for b in (one.barrel, one.rod))
+    if not len(outer) or not len(inner):
+        return None
+    stroke = float(outer.max() - inner.min() - _ENGAGED * (inner.max() - inner.min()))
+    return stroke if stroke > _ENGAGED * float(np.ptp(inner)) else None
 
 
 def _usual_stroke(one: _Sizes, drawn: float) -> float:
