@@ -27,6 +27,7 @@ DOCUMENTS = (
     "words",
     "usual",
     "hinges",
+    "shares",
 )
 """The documents a template folder can have, each `<name>.json`; only `joints` is needed, and not even that
 where `modules` bring joints."""

@@ -51,6 +51,8 @@ MEC034  a body has no volume and no area; it weighs 1 kg
 MEC035  no weight is published, and by volume and density it would weigh far from what is usual, which was assumed
 MEC036  the template's default would drive a machine of this weight far too hard; it was limited
 MEC037  nothing leads a joint that follows another: its leader was not found, or one of the two is cut
+MEC038  knuckles of steered wheels are not drawn: the wheels are steered about upright axes through their middles
+MEC039  bodies were held to the usual shares of the weight, which geometry cannot say
 MEC040  a site's place was not found
 MEC041  no plane meets the edge of an edge site; its x axis points from the hinge to the edge
 MEC050  a limit names a specification that is not known; the joint is not limited there

@@ -176,19 +176,17 @@ def _standing(template: Template, placement: Placement, where: str, findings: li
     return replace(template, root=stand)
 
 
-_STANDS_IN = {"frame": "it is one with", "arm": "what slides on it slides on"}
-"""Of what is not drawn, by its kind: what the body does that stands in for it; an axle's has its wheels."""
-
-
 def _as_drawn(template: Template, placement: Placement, findings: list[Finding]) -> Template:
     """The template without axles, frames and slideways that are not drawn (`as_drawn`), with a finding for each."""
     names = [r.name for r in template.roles if r.rigid]
     merged = as_drawn(template, [name for name in names if placement.has_body(name)])
     merged_away = {name for name in names if not merged.role(name).rigid}
+    rolling = {template.body_of(str(r.parent)) for r in template.roles if r.kind == "wheel" and r.rigid}
     for name in names:
         # What hangs on an axle that is not drawn goes with it.
         if name in merged_away and template.body_of(str(template.role(name).parent)) not in merged_away:
-            what = _STANDS_IN.get(template.role(name).kind, "its wheels turn on")
+            what = "its wheels turn on" if name in rolling else "it is one with"
+            what = "what slides on it slides on" if template.role(name).kind == "arm" else what
             words = f"No part of the CAD model is '{name}': {what} '{merged.body_of(name)}'."
             findings.append(Finding("MEC017", "warning", name, words, "Give its parts that role in the alignment."))
     return merged

@@ -99,9 +99,36 @@ def _along(joint: JointTemplate, sizes: Mapping[str, int]) -> tuple[JointTemplat
 
 def as_drawn(template: Template, present: Collection[str]) -> Template:
     """The template (its variants decided) for a machine of which these bodies are drawn: without absent axles
-    (`without_absent_axles`), an absent frame one with the frame that carries it, an absent slideway with what bears it,
-    and what would turn on one pin of an absent body turning on each other."""
-    return across_absent(_with_bearers_in_one(without_absent_axles(template, present), present), present)
+    (`without_absent_axles`), an absent hitch one with the frame behind it, an absent frame one with the frame that
+    carries it, an absent slideway with what bears it, and what would turn on one pin of an absent body turning on each
+    other."""
+    bare = without_absent_axles(_with_hitches_in_one(template, present), present)
+    return across_absent(_with_bearers_in_one(bare, present), present)
+
+
+def _with_hitches_in_one(template: Template, present: Collection[str]) -> Template:
+    """A hitch that is not drawn between two frames that are, on each of which it turns, is one with the second: the
+    machine bends as it is steered, and does not roll. It keeps the hinge to the frame above it."""
+    hinges = [(j, template.bodies_of(j)) for j in template.joints if j.type == "revolute" and _of_known(j, template)]
+    for role in [r for r in template.roles if r.rigid and r.name not in present and r.parent is not None]:
+        above = template.body_of(str(role.parent))
+        own = [(j, next(b for b in pair if b != role.name)) for j, pair in hinges if role.name in pair]
+        frames = {str(b): j for j, b in own if b in present and template.role(str(b)).kind == "frame"}
+        if len(frames) != 2 or above not in frames:
+            continue
+        (behind,) = set(frames) - {above}
+        places = {behind: role.parent, role.name: behind}
+        roles = tuple(
+            replace(r, parent=places.get(r.name, r.parent), rigid=r.rigid and r.name != role.name)
+            for r in template.roles
+        )
+        joints = tuple(j for j in template.joints if j.name != frames[behind].name)
+        template = replace(template, roles=roles, joints=joints)
+    return template
+
+
+def _of_known(joint: JointTemplate, template: Template) -> bool:
+    return all(template.knows(part.partition("[")[0]) for part in joint.parts)
 
 
 def _with_bearers_in_one(template: Template, present: Collection[str]) -> Template:
@@ -121,7 +148,7 @@ def _with_bearers_in_one(template: Template, present: Collection[str]) -> Templa
     if not absent:
         return template
     merged = replace(template, roles=tuple(replace(r, rigid=r.rigid and r.name not in absent) for r in template.roles))
-    known = [j for j in template.joints if all(template.knows(part.partition("[")[0]) for part in j.parts)]
+    known = [j for j in template.joints if _of_known(j, template)]
     gone = {j.name for j in known if len(set(merged.bodies_of(j))) == 1}
     return replace(merged, joints=tuple(j for j in template.joints if j.name not in gone))
 
@@ -156,7 +183,7 @@ def without_absent_axles(template: Template, present: Collection[str]) -> Templa
     tie rods and steering cylinder). Their wheels, and what else moves with them, then move on that body. So does the
     one wheel of a knuckle that is not drawn between an axle and tie rods that are: these no longer reach it."""
     wheels = {r.name for r in template.roles if r.kind == "wheel"}
-    known = [j for j in template.joints if all(template.knows(part.partition("[")[0]) for part in j.parts)]
+    known = [j for j in template.joints if _of_known(j, template)]
     ends = {j.name: template.bodies_of(j) for j in known}
     beside: dict[str, set[str]] = {}
     for pair in ends.values():

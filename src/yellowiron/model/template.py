@@ -294,7 +294,7 @@ class UsualHinge:
 class Template:
     """A template with all its documents. `root` is the body that stands for the machine's base; `words`: words of role
     names (`rear frame`) → language → what parts of it are called; `usual`: body → where it usually is; `hinges`:
-    actuator → how its hinge usually moves."""
+    actuator → how its hinge usually moves; `shares`: body, without its side → its usual share of the weight, 0 to 1."""
 
     equipment_type: str
     folder: str
@@ -314,6 +314,7 @@ class Template:
     words: Mapping[str, Mapping[str, tuple[str, ...]]] = field(default_factory=dict)
     usual: Mapping[str, Usual] = field(default_factory=dict)
     hinges: Mapping[str, UsualHinge] = field(default_factory=dict)
+    shares: Mapping[str, float] = field(default_factory=dict)
 
     @property
     def sheet_only(self) -> bool:

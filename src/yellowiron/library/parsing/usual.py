@@ -1,5 +1,5 @@
 """Where the bodies of a type usually are, and how large they are: `usual.json`; how its hinges usually move where their
-cylinders are not drawn: `hinges.json`."""
+cylinders are not drawn: `hinges.json`; what share of the weight each body has: `shares.json`."""
 
 from __future__ import annotations
 
@@ -9,6 +9,9 @@ from collections.abc import Mapping
 from yellowiron.library.notation.validated_json import Document, near
 from yellowiron.model.errors import TemplateError
 from yellowiron.model.template import ActuatorTemplate, Role, Usual, UsualHinge
+
+_ROUNDED = 0.01
+"""The shares of a whole machine are rounded one by one."""
 
 
 def read_usual(document: Document, roles: tuple[Role, ...]) -> Mapping[str, Usual]:
@@ -45,3 +48,20 @@ def read_hinges(document: Document, actuators: tuple[ActuatorTemplate, ...]) -> 
             low, high, math.radians(entry["speed"]), entry["torque"], entry.get("from", "") == "drawn"
         )
     return found
+
+
+def read_shares(document: Document, roles: tuple[Role, ...]) -> Mapping[str, float]:
+    """Body → its usual share of the machine's weight, 0 to 1. `TemplateError` for a name that is no body's, of either
+    side, or shares of more than the whole."""
+    known = {name for role in roles for name in (role.name, role.name.removesuffix("_l").removesuffix("_r"))}
+    for name in document.data:
+        if name not in known:
+            raise TemplateError(
+                f"'{name}' is no body of the template",
+                where=document.at(name),
+                hint=near(name, known) or "Write the names of bodies, without their side.",
+            )
+    shares = {name: percent / 100.0 for name, percent in document.data.items()}
+    if sum(shares.values()) > 1.0 + _ROUNDED:
+        raise TemplateError("The shares are more than 100 %", where=str(document.path), hint="They are percents of it.")
+    return shares

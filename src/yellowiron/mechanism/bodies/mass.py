@@ -13,6 +13,7 @@ from dataclasses import dataclass
 import numpy as np
 
 from yellowiron.mechanism.bodies.choice import Choice
+from yellowiron.mechanism.bodies.usual_shares import WITHIN, shares_finding, shares_of, within_usual
 from yellowiron.mechanism.bodies.usual_weight import usual_weight
 from yellowiron.mechanism.placement import Placement
 from yellowiron.mechanism.values import Known, known
@@ -161,11 +162,15 @@ def weigh(
     rows = [row for body in bodies for row in placement.rows_of_body(body)]
     published = _published(template, specifications)
     total = published[_WHOLE][1] if _WHOLE in published else None
+    drawn = sum(moments[row].mass for row in rows)
     if total is None:
-        total = _assumed(sum(moments[row].mass for row in rows), placement, template, findings)
+        total = _assumed(drawn, placement, template, findings)
     moments = _rolled(moments, sheets, rows, total, placement, findings)
     weights = {b: sum(moments[row].mass for row in placement.rows_of_body(b)) for b in bodies}
     factors = _factors(weights, published, total, findings)
+    least, most = _PLAUSIBLE if _WHOLE in published else _NEAR
+    if total is not None and not least <= drawn / total.value <= most:
+        factors = _held(factors, weights, published, template, placement, findings)
     return Masses(materials, moments, factors, used, choice)
 
 
@@ -309,6 +314,31 @@ def _factors(
         findings,
     )
     return factors
+
+
+def _held(
+    factors: Mapping[str, Factor],
+    weights: Mapping[str, float],
+    published: Mapping[str, tuple[str, Known]],
+    template: Template,
+    placement: Placement,
+    findings: list[Finding],
+) -> dict[str, Factor]:
+    """The factors of a machine that volume and density say little of: no body far from its usual share of the
+    weight, but those of published weight. MEC039 says which that changed."""
+    masses = {body: weights[body] * factors[body].value for body in weights}
+    kept = {body: masses[body] for body in published if body in masses}
+    held = within_usual(masses, shares_of(template, placement), kept)
+    told = shares_finding(masses, held, template.equipment_type.replace("_", " ") + "s")
+    if told is None:
+        return dict(factors)
+    findings.append(told)
+    return {
+        body: factor
+        if body in kept or not weights[body] > 0.0
+        else Factor(held[body] / weights[body], f"{factor.source}; held to within {WITHIN:g} times its usual share")
+        for body, factor in factors.items()
+    }
 
 
 def _hollowed(drawn: float, placement: Placement, hint: str, findings: list[Finding]) -> Known | None:
