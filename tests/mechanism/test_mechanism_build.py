@@ -139,6 +139,8 @@ def test_a_missing_body_takes_its_joints_along_and_the_hinge_is_driven_directly(
     built = build((assembly, without(alignment, "ROD")))
     assert {j.name for j in built.joints} == {"base2arm", "base2barrel"}
     assert {"MEC002", "MEC013"} <= codes(built)
+    # What is not drawn is said once: by what moves in its place.
+    assert {f.severity for f in built.findings if f.code == "MEC002"} == {"info"}
     (actuator,) = built.actuators
     assert (actuator.kind, [j.joint for j in actuator.joints]) == ("motor", ["base2arm"])
     drive = built.joint("base2arm").drive

@@ -35,6 +35,7 @@ from yellowiron.model.mechanism import HELD, Drive, Joint, Mechanism, Vector
 from yellowiron.model.rows import as_drawn
 from yellowiron.model.specification import Specifications
 from yellowiron.model.template import JointTemplate, Material, Template
+from yellowiron.support.graphs import blocks
 from yellowiron.support.vectors import clean_triple
 
 
@@ -111,7 +112,6 @@ def build_mechanism(
     stated = drives.stated_drives(template, frames, findings)
     powered |= stated
     actuators = drives.actuators(template, frames, fitted, stated, findings)
-    findings = _told_once(findings, whole)
     slides = {f.cylinder.slide: f for group in fitted.values() for f in group}
     joints = tuple(
         _joint(_sourced(frame, alignment), tree, slides, powered, specifications, findings) for frame in frames.values()
@@ -136,6 +136,7 @@ def build_mechanism(
     fitted_cylinders = tuple(f.cylinder for f in slides.values())
     sensed = sensors.sensors(template, named, frames, fitted_cylinders, placement, findings)
 
+    findings = _told_once(findings, whole)
     return Mechanism(
         name=name,
         equipment_type=template.equipment_type,
@@ -197,11 +198,16 @@ _IN_WORDS = ("MEC013", "MEC026", "MEC038")
 
 
 def _told_once(findings: Sequence[Finding], template: Template) -> list[Finding]:
-    """The findings, those on single joints of cylinders that are not drawn notes only where it is said what moves (or
-    does not) instead."""
+    """The findings, those on single joints of linkages that are not drawn, and on sensors of theirs, notes only where
+    it is said what moves (or does not) instead."""
     without = {f.where for f in findings if f.code in _IN_WORDS}
-    theirs = {name for a in template.actuators if a.name in without for c in a.cylinders for name in c.joints}
-    return [replace(f, severity="info") if f.code == "MEC002" and f.where in theirs else f for f in findings]
+    ends = {j.name: template.bodies_of(j) for j in template.joints}
+    slides = {c.slide for a in template.actuators if a.name in without for c in a.cylinders}
+    theirs = {name for block in blocks(ends) if slides & {*block} for name in block}
+    theirs |= {name for a in template.actuators if a.name in without for c in a.cylinders for name in c.joints}
+    mounted = {s.name for s in template.sensors if (without | theirs) & {*map(str, s.mount.values())}}
+    notes = {("MEC002", name) for name in theirs} | {("MEC060", name) for name in mounted}
+    return [replace(f, severity="info") if (f.code, f.where) in notes else f for f in findings]
 
 
 def _weld_loose(
