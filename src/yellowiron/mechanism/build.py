@@ -32,7 +32,7 @@ from yellowiron.model.errors import MechanismError
 from yellowiron.model.finding import Finding
 from yellowiron.model.geometry import Floats
 from yellowiron.model.mechanism import HELD, Drive, Joint, Mechanism, Vector
-from yellowiron.model.rows import as_drawn
+from yellowiron.model.rows import as_drawn, names_known
 from yellowiron.model.specification import Specifications
 from yellowiron.model.template import JointTemplate, Material, Template
 from yellowiron.support.graphs import blocks
@@ -201,7 +201,7 @@ def _told_once(findings: Sequence[Finding], template: Template) -> list[Finding]
     """The findings, those on single joints of linkages that are not drawn, and on sensors of theirs, notes only where
     it is said what moves (or does not) instead."""
     without = {f.where for f in findings if f.code in _IN_WORDS}
-    ends = {j.name: template.bodies_of(j) for j in template.joints}
+    ends = {j.name: template.bodies_of(j) for j in template.joints if names_known(j, template)}
     slides = {c.slide for a in template.actuators if a.name in without for c in a.cylinders}
     theirs = {name for block in blocks(ends) if slides & {*block} for name in block}
     theirs |= {name for a in template.actuators if a.name in without for c in a.cylinders for name in c.joints}

@@ -109,7 +109,7 @@ def as_drawn(template: Template, present: Collection[str]) -> Template:
 def _with_hitches_in_one(template: Template, present: Collection[str]) -> Template:
     """A hitch that is not drawn between two frames that are, on each of which it turns, is one with the second: the
     machine bends as it is steered, and does not roll. It keeps the hinge to the frame above it."""
-    hinges = [(j, template.bodies_of(j)) for j in template.joints if j.type == "revolute" and _of_known(j, template)]
+    hinges = [(j, template.bodies_of(j)) for j in template.joints if j.type == "revolute" and names_known(j, template)]
     for role in [r for r in template.roles if r.rigid and r.name not in present and r.parent is not None]:
         above = template.body_of(str(role.parent))
         own = [(j, next(b for b in pair if b != role.name)) for j, pair in hinges if role.name in pair]
@@ -127,7 +127,8 @@ def _with_hitches_in_one(template: Template, present: Collection[str]) -> Templa
     return template
 
 
-def _of_known(joint: JointTemplate, template: Template) -> bool:
+def names_known(joint: JointTemplate, template: Template) -> bool:
+    """Whether the parts that a joint names are the template's."""
     return all(template.knows(part.partition("[")[0]) for part in joint.parts)
 
 
@@ -148,7 +149,7 @@ def _with_bearers_in_one(template: Template, present: Collection[str]) -> Templa
     if not absent:
         return template
     merged = replace(template, roles=tuple(replace(r, rigid=r.rigid and r.name not in absent) for r in template.roles))
-    known = [j for j in template.joints if _of_known(j, template)]
+    known = [j for j in template.joints if names_known(j, template)]
     gone = {j.name for j in known if len(set(merged.bodies_of(j))) == 1}
     return replace(merged, joints=tuple(j for j in template.joints if j.name not in gone))
 
@@ -183,7 +184,7 @@ def without_absent_axles(template: Template, present: Collection[str]) -> Templa
     tie rods and steering cylinder). Their wheels, and what else moves with them, then move on that body. So does the
     one wheel of a knuckle that is not drawn between an axle and tie rods that are: these no longer reach it."""
     wheels = {r.name for r in template.roles if r.kind == "wheel"}
-    known = [j for j in template.joints if _of_known(j, template)]
+    known = [j for j in template.joints if names_known(j, template)]
     ends = {j.name: template.bodies_of(j) for j in known}
     beside: dict[str, set[str]] = {}
     for pair in ends.values():

@@ -18,6 +18,7 @@ from yellowiron.mechanism.bodies.hidden_knuckles import HiddenKnuckle
 from yellowiron.mechanism.joints.frames import JointFrame
 from yellowiron.mechanism.placement import Placement
 from yellowiron.model.finding import Finding
+from yellowiron.model.rows import names_known
 from yellowiron.model.template import Follows, JointTemplate, Template
 
 UP = np.array([0.0, 0.0, 1.0])
@@ -93,7 +94,7 @@ def _steered(
 ) -> Iterator[_Steered]:
     """The wheels that an actuator of the whole template steers by knuckles of which none is drawn: bodies that carry a
     wheel each, and that its cylinders reach without passing what carries them."""
-    joints = [j for j in whole.joints if all(whole.knows(part.partition("[")[0]) for part in j.parts)]
+    joints = [j for j in whole.joints if names_known(j, whole)]
     ends = {j.name: (str(whole.bodies_of(j)[0]), str(whole.bodies_of(j)[1])) for j in joints}
     wheels = {r.name for r in whole.roles if r.kind == "wheel" and r.rigid}
     carried: dict[str, set[str]] = {}
