@@ -187,17 +187,18 @@ def _joint(joint: Joint, tables: PoseTables) -> dict[str, Any]:
 
 
 def _sliders(mechanism: Mechanism, tables: PoseTables) -> list[dict[str, Any]]:
-    """One for each cylinder actuator that has a table, for each other actuator, and for each free joint besides."""
+    """One for each actuator, but of cylinders on loops only of those that have a table; for each free joint besides."""
     return [*_actuator_sliders(mechanism, tables), *_free_sliders(mechanism, tables)]
 
 
 def _actuator_sliders(mechanism: Mechanism, tables: PoseTables) -> Iterator[dict[str, Any]]:
     cylinders = {cylinder.slide: cylinder for cylinder in mechanism.cylinders}
     tabled = {driver for table in tables.tables for driver in table.drivers}
+    looped = {name for loop in mechanism.loops for name in loop.joints}
     for actuator in mechanism.actuators:
         moved = [entry for entry in actuator.joints if entry.joint in tables.independent]
         # Without a table, a coupled joint would tear its loop open.
-        if not moved or (actuator.kind == "cylinder" and moved[0].joint not in tabled):
+        if not moved or (moved[0].joint in looped and moved[0].joint not in tabled):
             continue
         cylinder = cylinders.get(moved[0].joint)
         yield {
