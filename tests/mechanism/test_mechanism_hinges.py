@@ -10,9 +10,11 @@ import pytest
 import trimesh
 from hypothesis import given, settings
 from hypothesis import strategies as st
+from mechanism_machine import machine, specifications, template
 
 from yellowiron.library import load_template
 from yellowiron.library.parsing.usual import read_hinges
+from yellowiron.mechanism import build_mechanism
 from yellowiron.mechanism.actuation.proportion import Proportion
 from yellowiron.mechanism.actuation.usual_hinges import Turned, angle_of, sense, with_usual
 from yellowiron.model.geometry import Floats
@@ -130,3 +132,14 @@ def test_names_and_ranges_that_cannot_be_are_told(tmp_path) -> None:  # type: ig
         path.write_text(text)
         with pytest.raises(TemplateError, match=words):
             read_hinges(read_document(path, "hinges"), actuators)
+
+
+def test_a_hinge_of_which_its_type_says_nothing_is_limited_all_the_same() -> None:
+    """An adjustable boom without its cylinder had an unlimited torque and speed."""
+    assembly, alignment = machine()
+    parts = tuple(p for p in alignment.parts if p.body != "rod")
+    built = build_mechanism(assembly, template(), replace(alignment, parts=parts), specifications(), name="crane")
+    joint = built.joint("base2arm")
+    assert joint.drive is not None and math.isfinite(joint.drive.max_force) and math.isfinite(joint.drive.max_velocity)
+    assert np.degrees([joint.lower, joint.upper]) == pytest.approx([-45.0, 45.0])  # type: ignore[list-item]
+    assert "usual of machines" in joint.source["limits"]

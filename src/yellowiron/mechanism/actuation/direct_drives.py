@@ -103,7 +103,8 @@ def _idle_twin(hinge: str, bodies: Mapping[str, tuple[str, str]], claimed: Colle
 
 
 def _told(actuator: str, hinge: str, reason: str | None, *, usual: bool) -> Finding:
-    how = "directly, as far, fast and hard as is usual." if usual else "directly, with unlimited force."
+    whose = "is usual" if usual else "machines' hinges usually are"
+    how = f"directly, as far, fast and hard as {whose}."
     if reason is None:
         words = f"The CAD model has none of its cylinders: '{hinge}' is driven {how}"
         hint = "Give the hinge's Limit and max_force in a joints document (--data), or the cylinders in CAD."

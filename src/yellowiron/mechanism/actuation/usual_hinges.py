@@ -24,6 +24,9 @@ _LEVER = 0.1
 """Of a body's size: its middle is farther than this from its hinge where that shows how it is turned."""
 _MISREAD = math.radians(60.0)
 """An angle that is so far out of the usual range is no machine's."""
+COMMON = UsualHinge(math.radians(-45.0), math.radians(45.0), math.radians(40.0), 0.1, from_drawn=True)
+"""How a hinge moves of which its type says nothing: over the library's median turn and at its median speed, with its
+median torque and half as much again."""
 _ALIKE = 0.9
 """Cosine of the angle between two axes that turn about one direction."""
 
@@ -132,9 +135,9 @@ def hinges_driven_directly(
     kind = template.equipment_type.replace("_", " ") + "s"
     made = []
     for joint in joints:
-        usual = template.hinges.get(direct.get(joint.name, ""))
-        if usual is not None and joint.name in turned and joint.drive is not None:
+        if joint.name in direct and joint.name in turned and joint.drive is not None:
+            usual = template.hinges.get(direct[joint.name], COMMON)
             drawn = None if usual.from_drawn else angle_of(joint.name, turned, points_of)
-            joint = with_usual(joint, usual, drawn, proportion, kind)
+            joint = with_usual(joint, usual, drawn, proportion, kind if usual is not COMMON else "machines")
         made.append(joint)
     return tuple(made)
