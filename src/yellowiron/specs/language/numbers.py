@@ -222,7 +222,7 @@ def _qualified(text: str, readings: list[tuple[Reading, int, int]]) -> tuple[Rea
         if index and _is_load_at(readings[index - 1][0], before, reading):
             head, condition = "", True
         if not last and _is_load_at(reading, after, readings[index + 1][0]):
-            tail = ""
+            tail = _AT_RADIUS.sub("", tail)
         elif _CONDITION.search(tail):
             tail = _CONDITION.sub("", tail)
         words = " ".join(_JUNK.sub(" ", part).strip() for part in (_CONDITION.sub("", head), tail)).strip(

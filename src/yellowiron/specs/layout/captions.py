@@ -18,6 +18,8 @@ _LEADING = 0.8
 """The lines of a stack follow each other within this times the type size."""
 _DEEPEST = 4.5
 """A row stands under the one before, or under its caption, within this times the type size."""
+_MODEL = re.compile(r"(?=.*\d)(?=.*[A-Z])[A-Z\d/-]+")
+_NUMBER = re.compile(r"\d+([.,]\d+)?")
 _BRACKETED = re.compile(r"[(\[][^()\[\]]{1,8}[)\]]")
 
 
@@ -72,8 +74,8 @@ def _continues(piece: TextPiece, below: TextPiece) -> bool:
     """Whether a line of words stands right over another one of its stack."""
     gap = below.box[1] - piece.box[3]
     return (
-        abs(piece.x0 - below.x0) < 0.35 * below.size
-        and abs(piece.size - below.size) < 0.1 * below.size
+        abs(piece.x0 - below.x0) < 0.6 * below.size
+        and abs(piece.size - below.size) < 0.3 * below.size
         and -0.5 * below.size < gap < _LEADING * below.size
         and piece.box[1] < below.box[1]
         and kind_of(piece) == "text"
@@ -88,7 +90,8 @@ def _place(caption: _Caption, captions: Sequence[_Caption], bars: Sequence[Box])
     level = [c.box for c in captions if c.box[0] > x0 + size and c.box[1] < bottom and c.box[3] > top]
     under = [b for b in bars if b[0] < x1 and b[2] > x0 and -size < b[1] - bottom < 2 * size and b[3] - b[1] < 3 * size]
     bar = min(under, key=lambda b: b[1], default=None)
-    right = min([b[0] for b in level], default=max(x1, bar[2] if bar else x1) + size)
+    wide = max(x1, bar[2]) if bar else x1
+    right = min([*(b[0] for b in level), *([wide + size] if bar or not level else [])])
     lower = [c.box[1] for c in captions if c.box[1] > bottom and c.box[0] < right and c.box[2] > x0]
     deepest = bottom + 12 * size
     return bar, (x0 - size, bottom, right - 0.3 * size, min([deepest, *lower]))
@@ -111,13 +114,17 @@ def _rows(caption: _Caption, words: Sequence[Word], bar: Box | None) -> list[Tex
     return rows
 
 
-def _statements(page: int, row: int, caption: _Caption, heads: Sequence[Word], lines: Sequence[TextLine]) -> list[Statement]:
+def _statements(
+    page: int, row: int, caption: _Caption, heads: Sequence[Word], lines: Sequence[TextLine]
+) -> list[Statement]:
     """The values of the rows under a caption, each under its column's head; one alone holds for all columns."""
     label = " ".join(p.bare for p in caption.lines[:-1])
     unit = is_unit(caption.lines[-1].bare.strip("()[]. "))
-    named = heads and heads[0].x0 < caption.box[0] + 2 * caption.size  # what stands over the names of the rows
+    left = caption.box[0] + 2 * caption.size
+    numbers = any(p.x0 < left and _NUMBER.fullmatch(p.bare) for line in lines for p in line.pieces[:1])
+    named = heads and heads[0].x0 < left and not numbers  # what stands over the names of the rows
     columns = heads[1:] if named else heads
-    rows = [_cells(line, columns) for line in lines]
+    rows = [_cells(line, columns, caption) for line in lines]
     alone = sum(len(cells) for _, cells in rows) == 1
     found: list[Statement] = []
     for number, (name, cells) in enumerate(rows):
@@ -133,8 +140,9 @@ def _statements(page: int, row: int, caption: _Caption, heads: Sequence[Word], l
                     text=text,
                     box=join_boxes(w.box for w in cell),
                     quote=" … ".join([*quote, " ".join(w.text for w in cell)]),
-                    context=(name,) if name else (),
+                    context=(name,) if name and not _MODEL.fullmatch(name) else (),
                     column=(head,) if head else (),
+                    variant=(name,) if name and _MODEL.fullmatch(name) else (),
                     unit=unit,
                     x0=cell[0].x0,
                 )
@@ -142,8 +150,9 @@ def _statements(page: int, row: int, caption: _Caption, heads: Sequence[Word], l
     return found
 
 
-def _cells(line: TextLine, heads: Sequence[Word]) -> tuple[str, list[tuple[Word, ...]]]:
-    """What a row is called, and its values: under heads each number is one, else each piece of text."""
+def _cells(line: TextLine, heads: Sequence[Word], caption: _Caption) -> tuple[str, list[tuple[Word, ...]]]:
+    """What a row is called, and its values: under heads each number is one, else each piece of text but one that
+    stands where names begin ("601 T")."""
     words = [w for p in line.pieces for w in p.words]
     left = heads[0].x0 - heads[0].size if heads else 0.0
     first = next((i for i, w in enumerate(words) if w.x1 > left and looks_like_value(w.text)), len(words))
@@ -154,7 +163,9 @@ def _cells(line: TextLine, heads: Sequence[Word]) -> tuple[str, list[tuple[Word,
         else:
             cells.append((word,))
     apart = [p.words for part in lines_of(words[first:]) for p in part.pieces]
-    name = " ".join(w.text for w in words[:first] if any(map(str.isalpha, w.text)))
+    if len(apart) > 1 and not first and apart[0][0].x0 < caption.box[0] + 2 * caption.size:
+        first = len(apart.pop(0))
+    name = " ".join(w.text for w in words[:first] if any(map(str.isalnum, w.text)))
     return name, [c for c in (cells or apart) if looks_like_value(c[0].text)]
 
 
