@@ -92,6 +92,18 @@ def test_a_short_label_over_its_unit_is_no_caption(tmp_path: Path) -> None:
     assert captioned(_page(path), 0) == ([], frozenset())
 
 
+def test_labels_with_their_values_beside_them_are_no_caption(tmp_path: Path) -> None:
+    c = canvas(tmp_path / "a.pdf")
+    rows = (("Front axle oscillation", "17"), ("Steering angle", "52"), ("Turning radius between kerbs", "4,165"))
+    for i, (label, value) in enumerate(rows):
+        put(c, 40, _TOP - 8 * i, label, size=7)
+        put(c, 260, _TOP - 8 * i, value, size=7)
+    put(c, 40, _TOP - 24, "(mm)", size=7)
+    put(c, 40, _TOP - 40, "2,265", size=7)
+    c.save()
+    assert captioned(_page(tmp_path / "a.pdf"), 0) == ([], frozenset())
+
+
 def test_a_load_at_a_radius_in_a_sentence(tmp_path: Path) -> None:
     c = canvas(tmp_path / "a.pdf")
     put(c, 40, _TOP, "Grúa articulada", size=14, bold=True)

@@ -65,7 +65,7 @@ def _captions(pieces: Sequence[TextPiece]) -> list[_Caption]:
         stack = [last]
         while above := next((p for p in pieces if _continues(p, stack[0])), None):
             stack.insert(0, above)
-        if len(stack) > _FEWEST:
+        if len(stack) > _FEWEST and not any(_has_value(p, pieces) for p in stack[:-1]):
             found.append(_Caption(tuple(stack), join_boxes(p.box for p in stack)))
     return found
 
@@ -81,6 +81,13 @@ def _continues(piece: TextPiece, below: TextPiece) -> bool:
         and kind_of(piece) == "text"
         and not any(map(str.isdigit, piece.text))
     )
+
+
+def _has_value(piece: TextPiece, pieces: Sequence[TextPiece]) -> bool:
+    """Whether a line is a label: the next thing to its right is a value."""
+    middle = (piece.box[1] + piece.box[3]) / 2
+    level = [p for p in pieces if p.x0 > piece.x0 and p.box[1] < middle < p.box[3]]
+    return bool(level) and looks_like_value(min(level, key=lambda p: p.x0).bare)
 
 
 def _place(caption: _Caption, captions: Sequence[_Caption], bars: Sequence[Box]) -> tuple[Box | None, Box]:
