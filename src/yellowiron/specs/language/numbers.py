@@ -19,6 +19,8 @@ from yellowiron.support.units import parse_quantity
 _TIMES = re.compile(r"\s*[x×✕*]\s*[Øø⌀]?\s*", re.IGNORECASE)
 _DASH = re.compile(r"(?:\s*(?:[-–—~～〜∼]|\.\.\.|…)|\s*(?:to|bis)\b\s*\+?|\s+(?:à|a))\s*[Øø⌀]?\s*")
 _CONDITION = re.compile(r"(?:\bat|@|\bbei|\bà|\bfor|\bfür|\bpour|\bwith|\bper)\s*$", re.IGNORECASE)
+_AT_RADIUS = re.compile(r"(?:^|\s)(?:at|@|bei|auf|à|a|em)\s*$", re.IGNORECASE)
+"""What stands between a load and the radius at which it is lifted, also where it means "to" between other numbers."""
 _OF_NEXT = re.compile(
     r"(?:(?:^|[\s,;/|~–-])(?:to|bis|à|a)\s+|[\s,;/|~–-]*)((?:\b(?:min|max|mid|low|high)\w*\.?|[^\W\d][^\d,;:()|/]*[:：]|[^\W\d]\w*[:：])\s*)$",
     re.IGNORECASE,
@@ -217,7 +219,11 @@ def _qualified(text: str, readings: list[tuple[Reading, int, int]]) -> tuple[Rea
         last = following == len(text)
         tail = after if last else re.split(r"[,;()\[\]【】〔〕/|]", _OF_NEXT.sub("", after))[0]
         condition = _CONDITION.search(head if index == 0 or head else before) is not None
-        if _CONDITION.search(tail):
+        if index and _is_load_at(readings[index - 1][0], before, reading):
+            head, condition = "", True
+        if not last and _is_load_at(reading, after, readings[index + 1][0]):
+            tail = _AT_RADIUS.sub("", tail)
+        elif _CONDITION.search(tail):
             tail = _CONDITION.sub("", tail)
         words = " ".join(_JUNK.sub(" ", part).strip() for part in (_CONDITION.sub("", head), tail)).strip(
             "()[]【】〔〕,;/| -–~～"
@@ -226,3 +232,9 @@ def _qualified(text: str, readings: list[tuple[Reading, int, int]]) -> tuple[Rea
             words = result[-1].qualifier  # "Retracted: 2.3 m, Extended: 3.3 m, 4.3 m"
         result.append(replace(reading, qualifier=" ".join(words.split()), condition=condition))
     return tuple(result)
+
+
+def _is_load_at(load: Reading, between: str, radius: Reading) -> bool:
+    """Whether a length tells where the load before it is lifted: "5.100 kg a 2,50 m"."""
+    told = (load.numbers[0].dimension, radius.numbers[0].dimension) == ("mass", "length")
+    return told and _AT_RADIUS.search(between) is not None

@@ -152,6 +152,8 @@ def _is_tolerance(text: str, before: Quantity, quantity: Quantity) -> bool:
 
 
 _LONGEST_WORD = 30
+_CROSSES = re.compile(r"(?:[xX][\d.,]+)*[xX]")
+"""What stands before a factor that is glued to those before it: "2505x1200x2250"."""
 
 
 @functools.cache
@@ -169,7 +171,11 @@ def _inside_a_word(text: str, at: int) -> bool:
     if before is None:
         return False
     word = before.group(0)
-    if word.lower() == "x" or _ends_in_unit().search(text) or (measured and _ends_in_unit().search(text.rstrip("/"))):
+    if (
+        _CROSSES.fullmatch(word)
+        or _ends_in_unit().search(text)
+        or (measured and _ends_in_unit().search(text.rstrip("/")))
+    ):
         return False  # "950kg/1110kg"
     if measured and re.search(r"[A-Za-z]{4,}/$", word):
         return False  # "continuous/1.5 rpm"

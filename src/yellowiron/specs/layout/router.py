@@ -7,6 +7,7 @@ from collections.abc import Sequence
 from dataclasses import replace
 
 from yellowiron.specs.language.numbers import read
+from yellowiron.specs.layout.captions import captioned
 from yellowiron.specs.layout.grids.lattice import grids_of
 from yellowiron.specs.layout.grids.nested_rows import read_boxes
 from yellowiron.specs.layout.grids.open_sided import heads_above
@@ -34,6 +35,9 @@ def statements_of(page: Page) -> list[Statement]:
     notes = _footnote_words(lines, body_size(page.words))
     page = replace(page, words=tuple(w for w in page.words if w not in notes))
     page = replace(spelled(page, keys), footnotes=footnotes_of(lines))
+    under_captions, taken = captioned(page, 1000 * page.number)
+    if taken:
+        page = replace(page, words=tuple(w for w in page.words if w not in taken))
     grids = grids_of(page)
     outside = [
         w
@@ -43,8 +47,8 @@ def statements_of(page: Page) -> list[Statement]:
             for g in grids
         )
     ]
-    found: list[Statement] = []
-    row = 1000 * page.number
+    found = under_captions
+    row = 1000 * page.number + len(found)
     walls = [r for r in page.rules if not r.horizontal]
     headings: list[Heading] = []
     across = [*page.leaders, *((r.x0, r.top, r.x1, r.bottom) for r in page.rules if r.horizontal)]

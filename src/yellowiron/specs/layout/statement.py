@@ -197,6 +197,9 @@ def unit_in_label(text: str, *, bare: bool = False) -> tuple[str, str]:
     pair = re.search(r"^(.*?[\w)°.])[\s,]+(\S+\s*[(/\[]\s*[^()\[\]]+[)\]])$", text)
     if pair and "|" in (unit := is_unit(pair.group(2))):
         return pair.group(1), unit
+    nested = re.fullmatch(r"(.*\([^()]+)\(([^()]+)\)\)", text)  # "Dimensions (LxWxH(mm))"
+    if nested and (unit := is_unit(nested.group(2))):
+        return f"{nested.group(1)})", unit
     for pattern in _UNIT_AT_END:
         match = pattern.search(text)
         if match and (unit := is_unit(match.group(2))) and unit.rstrip(".") != "min":  # the least, not minutes

@@ -212,7 +212,7 @@ def without_case(text: str) -> str:
 
 def _expand(statement: Statement, style: DecimalStyle) -> Iterator[Claim]:
     text, unit = spelled_out(GRAVITATIONAL.sub("", statement.text), statement.unit)
-    every = read(text, unit=unit, style=style)
+    every = _without_chart(read(text, unit=unit, style=style))
     readings = [r for r in every if not r.condition]
     label = _without_conditions(statement.label)
     yield from _at_radius(statement, label, every)
@@ -227,6 +227,19 @@ def _expand(statement: Statement, style: DecimalStyle) -> Iterator[Claim]:
         for one in own:
             for claim in _claims_of_reading(statement, one, reading):
                 yield replace(claim, ranged=True, low=ends[index]) if ends else claim
+
+
+def _without_chart(readings: Sequence[Reading]) -> Sequence[Reading]:
+    """The readings without all but the first of loads that become less where they are lifted farther out: "5.100 kg a
+    2,50 m y 1.180 kg a 10,16 m"."""
+    pairs = list(zip(readings[::2], readings[1::2], strict=False))
+    if len(readings) < 4 or len(readings) % 2 or any(a.condition or not b.condition for a, b in pairs):
+        return readings
+    loads, radii = ([r.numbers[0] for r in own] for own in (readings[::2], readings[1::2]))
+    if {q.dimension for q in loads} != {"mass"} or {q.dimension for q in radii} != {"length"}:
+        return readings
+    falls = all(a.si_value > b.si_value for a, b in pairwise(loads))
+    return readings[:2] if falls and all(a.si_value < b.si_value for a, b in pairwise(radii)) else readings
 
 
 def _ends(text: str, pair: Sequence[Reading]) -> tuple[bool, ...]:

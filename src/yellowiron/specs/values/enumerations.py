@@ -23,6 +23,9 @@ _SIZES = dict.fromkeys(("LBH", "LlH", "LAH", "LAhA", "LAnAl", "lbh", "长宽高"
 _INITIALS = {"l": "length", "w": "width", "h": "height", "t": "thickness"}
 _FORK_SIZES = re.compile(r"(?<!\S)s\s?/\s?e\s?/\s?l(?!\S)")
 """What makers call length × width × height, and VDI 2198 a fork's measures."""
+_TIGHT = re.compile(r"\s?(?<![^\W\d])L\s?[x×*]\s?W\s?[x×*]\s?H(?![^\W\d])", re.IGNORECASE)
+_OFF = re.compile(r"\((?:without|w/o|excl\S*|less) forks?\)", re.IGNORECASE)
+"""What is left off for the length says nothing of the width and the height."""
 _NAME = r"(?:(?:length|longueur|longitud|di[aá]m\w+|diamètre) (?:of|de|du|del) \S+|\S+(?:\s+(?:diameter|dia\.?))?)"
 """What one factor of a product is called: "bore", "rod diameter", "length of stroke"."""
 
@@ -33,6 +36,7 @@ def enumerated(label: str, count: int) -> list[str]:
     ("Lift cylinders – bore x stroke", 2) → ["Lift cylinders bore", "Lift cylinders stroke"]; [] if it lists others.
     """
     bare = _FORK_SIZES.sub("s × e × l", COUNTED_PARTS.sub(" ", label)).strip()
+    bare = _TIGHT.sub(" L × W × H", bare)
     parts = [p.strip(" ()[]") for p in _CROSS.split(bare)]
     if len(parts) != count or not all(re.search(r"[^\W\d_]", p) for p in parts):
         return []
@@ -49,7 +53,8 @@ def enumerated(label: str, count: int) -> list[str]:
     names = list(_SIZES.get("".join(names), initials if all(initials) else names))
     if any("stroke" in tokens(n) for n in names):  # "diameter × stroke" of a cylinder
         names = ["bore" if tokens(n) == ("diameter",) else n for n in names]
-    return [" ".join(f"{prefix} {n} {suffix}".split()) for n in names]
+    across = _OFF.sub(" ", prefix)
+    return [" ".join(f"{prefix if n == 'length' else across} {n} {suffix}".split()) for n in names]
 
 
 def alternatives(label: str, count: int) -> list[str]:

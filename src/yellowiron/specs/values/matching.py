@@ -46,6 +46,8 @@ _UNSAID = 0.2
 """What it costs that a label does not say "maximum" where the greatest value and another one are asked for."""
 _TITLE = 5
 """The most words of a heading; what has more is a product's name: a title that says "with lift" names no lift."""
+_OFTEN = 3
+"""Languages that must agree before one word of another one counts as a slip."""
 _REMARK = 0.02
 """What a word costs that is left over and says nothing else: enough to prefer a value that it does speak of."""
 
@@ -300,7 +302,11 @@ def _match(asked_for: _Asked, claim: Claim, said: _Said) -> Match | None:
     supported = _supports(asked_for, section)
     headings = [*said.contexts, *([] if section <= GENERAL or len(section) > _TITLE else [section])]
     above = [words for words in headings if not _supports(asked_for, words)]
-    if _forbidden(asked_for, claim, said.text, [label - said.standard, *said.naming, *above]):
+    times = _times_said(asked_for, claim)
+    own = label - said.standard
+    if times >= _OFTEN:  # what one of several languages says alone is its translator's word
+        own = frozenset(t for t in own if tokens(claim.words).count(t) > 1)
+    if _forbidden(asked_for, claim, said.text, [own, *said.naming, *above]):
         return None
     circuits = label.union(*said.naming) | context | section
     if wanted.dimension in _BY_CIRCUIT and (circuits & CIRCUITS) - asked_for.words:
@@ -315,8 +321,8 @@ def _match(asked_for: _Asked, claim: Claim, said: _Said) -> Match | None:
     left = {t for t in left if t not in NEUTRAL or _is_telling(t, asked_for, explained | left, claim, said, KNOWN)}
     left -= said.standard | (frozenset() if from_head else _WHOLE)
     left -= {"speed"} if wanted.dimension == "time" else set()  # "Boom extension speed: 21 m/80 s"
-    if _is_translated(asked_for, claim):
-        left &= KNOWN | TELLING
+    if times > 1:  # what nothing is known of are the words of further languages
+        left &= (KNOWN | TELLING) & (own | TELLING)
     known = frozenset() if borrowed else KNOWN  # a heading that must help names other properties too
     rest = {t for t in left if _is_telling(t, asked_for, explained | left, claim, said, known)}
     lent = explained - label - head
@@ -409,10 +415,11 @@ def _is_others(word: str, asked_for: _Asked, words: Set[str], claim: Claim, said
     )
 
 
-def _is_translated(asked_for: _Asked, claim: Claim) -> bool:
-    """Whether a label says a phrase of a value in several languages: what nothing is known of are further ones."""
+def _times_said(asked_for: _Asked, claim: Claim) -> int:
+    """How many times a label says a phrase of several words of a value: once for each language."""
     order = tokens(claim.words)
-    return any(len(words) > 1 and all(order.count(w) > 1 for w in words) for _, words in asked_for.phrases)
+    said = [min(map(order.count, words)) for _, words in asked_for.phrases if len(words) > 1]
+    return max(said, default=0)
 
 
 def _opens_sentence(word: str, asked_for: _Asked, claim: Claim) -> bool:

@@ -146,14 +146,16 @@ def _are_sentences(cells: Sequence[Cell]) -> bool:
 def _heads_none(grid: TableGrid, filled: Sequence[Cell], heads: Sequence[int], *, below: bool) -> bool:
     """Whether a row of words, a label first, says nothing of its columns: as `names_no_columns`; or it is in the only
     column of values and no model, or set like the rows of values, under some of them (`below`), and rows that stand
-    out (`heads`) head the table."""
+    out (`heads`) head the table; or it says the same of all columns that rows above name."""
     named = [[c for c in _row_cells(grid, head) if c.lines] for head in heads]
     apart = any(all(map(_is_bold, row)) or names_models(row[0].text) for row in named if row)
     first = min((c.columns[0] for c in grid.cells if looks_like_value(c.text)), default=1)
     labels, cells = [c.text for c in filled if c.columns[0] < first], [c.text for c in filled if c.columns[0] >= first]
+    last = filled[-1].columns
+    spanning = bool(heads) and len(cells) == 1 and last[0] <= first < last[1] - 1 and last[1] == grid.columns
     single = first == grid.columns - 1 and not names_models(" ".join(labels))
     plain = (single or (below and apart)) and not all(map(_is_bold, filled))
-    none = plain or names_no_columns([" ".join(labels), *cells])
+    none = plain or spanning or names_no_columns([" ".join(labels), *cells])
     return bool(labels) and none and not any(map(is_unit, cells))
 
 
