@@ -211,7 +211,10 @@ def _by_cylinders(variants: list[dict[str, str]], template: Template, drawn: int
     special = template.special()
     groups: dict[tuple[int, bool], list[dict[str, str]]] = {}
     for chosen in variants:
-        count = sum(1 for r in machine_of(template, chosen).roles if r.kind == "barrel")
+        machine = machine_of(template, chosen)
+        count = sum(1 for r in machine.roles if r.kind == "barrel")
+        # A rope in its block looks like one.
+        count += sum(len(a.cylinders) for a in machine.actuators if a.kind == "winch")
         groups.setdefault((abs(count - drawn), not special.isdisjoint(chosen.items())), []).append(chosen)
     return [groups[key] for key in sorted(groups)]
 
