@@ -71,19 +71,19 @@ def draw_boom(pose: Pose, hardware: Assembly) -> Assembly:
     hub = ring((0, -half, 0), Y, 125, PIN_BOOM / 2 + CLEARANCE, 2 * half)
     tree.add(Part("BOOM HUB", moved(hub, at), YELLOW), body)
     dx, dz = (float(c) for c in D)
-    lug = plate([(dx, dz, 110), (dx + 230, low, 0), (dx - 230, low, 0)], "xz", 75, 125)
+    lug = plate([(dx, dz, 110), (dx + 230, low, 0), (dx - 230, low, 0)], "xz", 112, 162)
     _both(tree, "LUFFING CYL LUG", bored(lug, Y, ((dx, 0, dz), PIN_LUFFING / 2)), at, body)
     tx, tz = (float(c) for c in TELESCOPE)
-    lug = plate([(tx, tz, 60), (tx - 110, top, 0), (tx + 110, top, 0)], "xz", 50, 80)
+    lug = plate([(tx, tz, 60), (tx - 110, top, 0), (tx + 110, top, 0)], "xz", 85, 115)
     _both(tree, "TELESCOPE CYL LUG", bored(lug, Y, ((tx, 0, tz), PIN_TELESCOPE / 2)), at, body)
-    _pin(hardware, pose.rod, PIN_LUFFING, 135, body, "luffing_piston_rod_pin")
+    _pin(hardware, pose.rod, PIN_LUFFING, 175, body, "luffing_piston_rod_pin")
     first, second = telescope(pose)
-    _pin(hardware, first, PIN_TELESCOPE, 85, body, "telescope_cylinder_barrel_pin")
+    _pin(hardware, first, PIN_TELESCOPE, 122, body, "telescope_cylinder_barrel_pin")
     body, out = "middle_boom", pose.out * v.TELESCOPE_STROKE.value
     rx, top = tx + v.TELESCOPE_CLOSED.value + out, AXIS + TUBES[1][1]
-    lug = plate([(rx, tz, 60), (ENDS[0] + 15 + out, top, 0), (ENDS[1] + out, top, 0)], "xz", 50, 80)
+    lug = plate([(rx, tz, 60), (ENDS[0] + 15 + out, top, 0), (ENDS[1] + out, top, 0)], "xz", 85, 115)
     _both(tree, "TELESCOPE ROD LUG", bored(lug, Y, ((rx, 0, tz), PIN_TELESCOPE / 2)), at, body)
-    _pin(hardware, second, PIN_TELESCOPE, 85, body, "middle_telescope_piston_rod_pin")
+    _pin(hardware, second, PIN_TELESCOPE, 122, body, "middle_telescope_piston_rod_pin")
     return tree
 
 
@@ -123,9 +123,9 @@ def draw_hoist(pose: Pose) -> Assembly:
     tree.add(Part("ROPE GUARD", guard, YELLOW), body, at=at)
     cheek = plate([(-70, -170, 70), (70, -170, 70), (172, top, 0), (-172, top, 0)], "xz", 92, 117)
     for name, one in (("LH", cheek), ("RH", mirrored(cheek))):
-        tree.add(Part(f"HOOK BLOCK CHEEK {name}", bored(one, Y, ((0, 0, 0), 35)), YELLOW), body, at=at)
-    tree.add(Part("BLOCK SHEAVES", ring((0, -90, 0), Y, SHEAVE - 2 * ROPE - 2, 35, 180), GREY), body, at=at)
-    tree.add(Part("BLOCK PIN", rod((0, -125, 0), Y, 35, 250), STEEL), body, at=at)
+        tree.add(Part(f"HOOK BLOCK CHEEK {name}", one, YELLOW), body, at=at)
+    sheaves = rod((0, -92, 0), Y, SHEAVE - 2 * ROPE - 2, 184)
+    tree.add(Part("BLOCK SHEAVES", sheaves, GREY), body, at=at)
     trunnion = box(-70, 70, -92, 92, -240, -150)
     tree.add(Part("HOOK TRUNNION", trunnion, GREY), body, at=at)
     bow = cut(ring((0, -40, bottom + 130), Y, 130, 65, 80), box(0, 200, -60, 60, bottom + 130, bottom + 300))

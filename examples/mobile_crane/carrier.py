@@ -122,9 +122,9 @@ def draw_frame() -> Assembly:
     put("FUEL TANK", sheet_box(-1_100, 1_100, outside, half, 620, 1_100, 6.0), BLACK)
     put("HYDRAULIC TANK", sheet_box(-1_100, 1_100, -half, -outside, 620, 1_100, 6.0), BLACK)
     put("ENGINE", sheet_box(-3_600, -2_640, -340, 340, low, high + 60, 50.0))
-    put("ENGINE HOOD", sheet_box(-3_980, -2_620, 450, half, low, 1_350, 5.0), YELLOW)
+    put("ENGINE HOOD", sheet_box(-3_980, -2_620, 450, BOX_Y, low, 1_350, 5.0), YELLOW)
     put("TRANSMISSION", sheet_box(-1_120, -720, -345, 345, low, high, 30.0))
-    for name, y in (("LH", outside), ("RH", -half)):
-        put(f"FRONT DECK {name}", sheet_box(2_640, FRONT - 40, y, y + half - outside, high - 150, high, 6.0), YELLOW)
+    for name, y in (("LH", outside), ("RH", -BOX_Y)):
+        put(f"FRONT DECK {name}", sheet_box(2_640, FRONT - 40, y, y + BOX_Y - outside, high - 150, high, 6.0), YELLOW)
     put("FRONT WEIGHT", box(2_860, FRONT - 40, -inside, inside, low, high))
     return tree

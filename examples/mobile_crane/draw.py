@@ -32,8 +32,8 @@ POSES = {
 }
 """On its outriggers, boom up and drawn out a little; in road order."""
 _SIZES: dict[str, tuple[str, str, tuple[float, ...]]] = {
-    "luffing": ("LUFFING CYL", "LUFFING", (350, 120, 110, 140, 190, 60, 130, 130)),
-    "telescope": ("TELESCOPE CYL", "TELESCOPE", (162, 80, 60, 90, 120, 40, 120, 100)),
+    "luffing": ("LUFFING CYL", "LUFFING", (350, 120, 110, 200, 190, 60, 130, 130)),
+    "telescope": ("TELESCOPE CYL", "TELESCOPE", (162, 80, 60, 140, 120, 40, 120, 100)),
 }
 """Name, prefix of its values; outside, pin, eye, eye's width, base, cap, piston, gland in millimetres."""
 

@@ -1,7 +1,7 @@
 """What slews on the carrier: ring, base plate, cheeks that carry the boom and its luffing cylinder, counterweight, winch,
 cab. Machine frame, millimetres.
 
-Lateral layout, from the middle: luffing cylinder's eyes within 70, their bosses from 75 on; boom within 226; cheeks
+Lateral layout, from the middle: luffing cylinder's eyes within 100, their bosses from 108 on; boom within 226; cheeks
 235-275; cab beside the boom.
 """
 
@@ -42,7 +42,7 @@ def draw_superstructure(hardware: Assembly) -> Assembly:
     side = [(px - 120, FLOOR, 0.0), (-1_220.0, FLOOR, 0.0), (px, pz, 190.0)]
     cheek = bored(plate(side, "xz", inside, outside), Y, ((px, 0, pz), PIN_BOOM / 2), ((cx, 0, cz), PIN_LUFFING / 2))
     add_pair(tree, "BOOM CHEEK", cheek, BODY)
-    add_pair(tree, "LUFFING CYL BOSS", ring((cx, 75, cz), Y, 110, PIN_LUFFING / 2, inside - 75), BODY)
+    add_pair(tree, "LUFFING CYL BOSS", ring((cx, 108, cz), Y, 110, PIN_LUFFING / 2, inside - 108), BODY)
     ballast = box(BALLAST_X, -2_310, outside, BALLAST_Y, FLOOR, 1_700)
     for name, sign in (("LH", 1.0), ("RH", -1.0)):
         shape = ballast if sign > 0.0 else box(BALLAST_X, -2_310, -BALLAST_Y, -outside, FLOOR, 1_700)

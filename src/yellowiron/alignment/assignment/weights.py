@@ -134,21 +134,29 @@ def size_weights(solids: tuple[Solid, ...], structure: Structure, template: Temp
 
 
 def interchangeable(template: Template, *, joints: bool = True) -> list[frozenset[str]]:
-    """Groups of bodies whose names differ in front, middle, rear, left, right alone and which hang on the same bodies
-    by joints of one type: a machine's four wheels on one chassis. Only where they stand tells which is which. Without
-    `joints`, whatever they hang on: where a person said what is ahead, that tells as much."""
+    """Groups of bodies whose names differ in front, middle, rear, left, right alone and which the joints do not tell
+    apart: a machine's four wheels on one chassis, and what steers two axles alike. Only where they stand tells which is
+    which. Without `joints`, whatever they hang on: where a person said what is ahead, that tells as much."""
     rigid = [r.name for r in template.roles if r.rigid]
+    plain = {name: SIDE.sub("", _END.sub("", name)) for name in rigid}
     joined: dict[str, list[tuple[str, str]]] = {name: [] for name in rigid}
     for joint in template.joints:
         a, b = template.bodies_of(joint)
         if a in joined and b in joined:
             joined[a].append((joint.type, b))
             joined[b].append((joint.type, a))
-    groups: dict[tuple[str, tuple[tuple[str, str], ...]], set[str]] = {}
+    # Bodies that are joined alike to bodies that are joined alike, and so on.
+    alike = dict(plain)
+    kinds = 0
+    while joints and len(set(alike.values())) > kinds:
+        kinds = len(set(alike.values()))
+        held = {name: (alike[name], tuple(sorted((t, alike[b]) for t, b in joined[name]))) for name in rigid}
+        numbers = {key: number for number, key in enumerate(dict.fromkeys(held.values()))}
+        alike = {name: f"{numbers[held[name]]:06d}" for name in rigid}
+    groups: dict[tuple[str, str], set[str]] = {}
     for name in rigid:
         if _END.search(name):
-            held = tuple(sorted(joined[name])) if joints else ()
-            groups.setdefault((SIDE.sub("", _END.sub("", name)), held), set()).add(name)
+            groups.setdefault((plain[name], alike[name] if joints else ""), set()).add(name)
     return [frozenset(g) for g in groups.values() if len({_END.findall(name)[0] for name in g}) > 1]
 
 
