@@ -18,7 +18,7 @@ from .superstructure import PIN_BOOM, PIN_LUFFING
 
 AXIS = 450.0
 """Height of the sections' middle, in the boom's frame."""
-TUBES = ((210.0, 300.0, 10.0), (194.0, 284.0, 9.0), (179.0, 269.0, 8.0), (165.0, 255.0, 8.0))
+TUBES = ((210.0, 300.0, 10.0), (194.0, 284.0, 9.0), (179.0, 269.0, 8.0), (165.0, 255.0, 7.0))
 """Half width, half height, wall of the sections, from the outermost."""
 BODIES = ("boom", "middle_boom", "second_middle_boom", "inner_boom")
 START, ENDS = (120.0, 260.0, 340.0, 420.0), (7_950.0, 8_150.0, 8_350.0, 8_800.0)

@@ -107,8 +107,8 @@ def draw_frame() -> Assembly:
     def put(name: str, shape: TopoDS_Shape, colour: Colour = GREY, role: str = "", at: gp_Trsf | None = None) -> None:
         tree.add(Part(name, shape, colour), BODY, role, at)
 
-    add_pair(tree, "FRAME RAIL", sheet_box(REAR + 40, FRONT - 40, inside, outside, low, high, 10.0), BODY, GREY)
-    put("REAR BUMPER", box(REAR, REAR + 40, -half, half, low - 150, high))
+    add_pair(tree, "FRAME RAIL", sheet_box(REAR + 12, FRONT - 40, inside, outside, low, high, 10.0), BODY, GREY)
+    put("REAR BUMPER", box(REAR, REAR + 12, -half, half, low - 150, high))
     put("FRONT BUMPER", box(FRONT - 40, FRONT, -half, half, low - 150, high))
     for x in (-2_900.0, -1_160.0, 1_120.0, 2_800.0):
         put("X-MEMBER", box(x, x + 40, -inside, inside, low, high))
@@ -121,10 +121,10 @@ def draw_frame() -> Assembly:
     put("SLEWING BEARING INNER RACE", ring((0, 0, SEAT), Z, between, inner, DECK - SEAT - 12), STEEL, "slewing_bearing")
     put("FUEL TANK", sheet_box(-1_100, 1_100, outside, half, 620, 1_100, 6.0), BLACK)
     put("HYDRAULIC TANK", sheet_box(-1_100, 1_100, -half, -outside, 620, 1_100, 6.0), BLACK)
-    put("ENGINE", sheet_box(-3_600, -2_640, -340, 340, low, high + 60, 50.0))
+    put("ENGINE", sheet_box(-3_600, -2_640, -340, 340, low, high + 60, 15.0))
     put("ENGINE HOOD", sheet_box(-3_980, -2_620, 450, BOX_Y, low, 1_350, 5.0), YELLOW)
     put("TRANSMISSION", sheet_box(-1_120, -720, -345, 345, low, high, 30.0))
     for name, y in (("LH", outside), ("RH", -BOX_Y)):
-        put(f"FRONT DECK {name}", sheet_box(2_640, FRONT - 40, y, y + BOX_Y - outside, high - 150, high, 6.0), YELLOW)
-    put("FRONT WEIGHT", box(2_860, FRONT - 40, -inside, inside, low, high))
+        put(f"FRONT DECK {name}", box(2_640, FRONT - 40, y, y + BOX_Y - outside, high - 150, high), YELLOW)
+    put("FRONT WEIGHT", box(2_860, FRONT - 40, -inside, inside, low, high + 140))
     return tree

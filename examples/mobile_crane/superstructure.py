@@ -23,7 +23,7 @@ BODY = "superstructure"
 CHEEK = (235.0, 275.0)
 PIN_BOOM, PIN_LUFFING = 140.0, 120.0
 FLOOR = DECK + 40.0
-BALLAST_Y = 900.0
+BALLAST_Y, BALLAST = 900.0, 60.0
 BALLAST_X = -math.sqrt(v.TAIL.value**2 - BALLAST_Y**2)
 
 
@@ -43,9 +43,9 @@ def draw_superstructure(hardware: Assembly) -> Assembly:
     cheek = bored(plate(side, "xz", inside, outside), Y, ((px, 0, pz), PIN_BOOM / 2), ((cx, 0, cz), PIN_LUFFING / 2))
     add_pair(tree, "BOOM CHEEK", cheek, BODY)
     add_pair(tree, "LUFFING CYL BOSS", ring((cx, 108, cz), Y, 110, PIN_LUFFING / 2, inside - 108), BODY)
-    ballast = box(BALLAST_X, -2_310, outside, BALLAST_Y, FLOOR, 1_700)
+    ballast = box(BALLAST_X, -2_310, outside, BALLAST_Y, FLOOR, FLOOR + BALLAST)
     for name, sign in (("LH", 1.0), ("RH", -1.0)):
-        shape = ballast if sign > 0.0 else box(BALLAST_X, -2_310, -BALLAST_Y, -outside, FLOOR, 1_700)
+        shape = ballast if sign > 0.0 else box(BALLAST_X, -2_310, -BALLAST_Y, -outside, FLOOR, FLOOR + BALLAST)
         put(f"COUNTERWEIGHT {name}", shape, GREY, "counterweight")
     put("MAIN WINCH DRUM", rod((px - 20, -inside, 1_950), Y, 130, 2 * inside), BLACK)
     fit_pin(hardware, (px, -outside - 10, pz), PIN_BOOM, 2 * outside + 20, BODY, "boom_pin")

@@ -150,7 +150,8 @@ def interchangeable(template: Template, *, joints: bool = True) -> list[frozense
     kinds = 0
     while joints and len(set(alike.values())) > kinds:
         kinds = len(set(alike.values()))
-        held = {name: (alike[name], tuple(sorted((t, alike[b]) for t, b in joined[name]))) for name in rigid}
+        beside = {n: sorted((kind, _END.sub("", b), alike[b]) for kind, b in joined[n]) for n in rigid}
+        held = {name: (alike[name], tuple(beside[name])) for name in rigid}
         numbers = {key: number for number, key in enumerate(dict.fromkeys(held.values()))}
         alike = {name: f"{numbers[held[name]]:06d}" for name in rigid}
     groups: dict[tuple[str, str], set[str]] = {}
