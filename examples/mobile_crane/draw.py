@@ -27,7 +27,7 @@ from .superstructure import draw_superstructure
 from .truth import FRAME, truth
 
 POSES = {
-    "working": Pose(math.radians(45.0), 0.2, 1.0, GROUNDED),
+    "working": Pose(math.radians(60.0), 0.1, 1.0, GROUNDED),
     "road": Pose(math.radians(4.0), 0.0, 0.0, 0.0),
 }
 """On its outriggers, boom up and drawn out a little; in road order."""

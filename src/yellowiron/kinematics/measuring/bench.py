@@ -147,6 +147,7 @@ class Bench:
         names = list(dict.fromkeys(str(condition["actuator"]) for condition in conditions))
         if len(names) != len(conditions):
             raise Unmeasurable("a solve step needs one condition for each of its actuators")
+        conditions = [self._known(condition) for condition in conditions]
         words = " and ".join(_words(condition) for condition in conditions)
         if len(names) == 1:
             (condition,) = conditions
@@ -160,6 +161,11 @@ class Bench:
                 condition["quantity"],
             )
         return self._roots(names, conditions, state, words)
+
+    def _known(self, condition: Mapping[str, Any]) -> Mapping[str, Any]:
+        """A condition with the value that a sheet gives for its specification, times its factor, where it does."""
+        value = specified(self.mechanism, str(condition.get("specification", "")))[0]
+        return condition if value is None else {**condition, "value": float(condition.get("factor", 1)) * value}
 
     def _extreme(self, wanted: Mapping[str, Any], state: State) -> State:
         subjects = [(each["quantity"], _number(each["value"])) for each in wanted.get("subject", ())]

@@ -142,6 +142,9 @@ class _Trial:
         if self.flow is not None and area > 0.0:
             return self.flow / area
         own = [c.speed for c in self.mechanism.cylinders if c.slide == self.driven and c.speed > 0.0]
+        drive = self.mechanism.joint(self.driven).drive
+        if not own and area == 0.0 and drive is not None and math.isfinite(drive.max_velocity):
+            return drive.max_velocity  # a winch's
         if not own:
             raise Unmeasurable("neither a flow nor a speed is known")
         return own[0]
