@@ -1,5 +1,5 @@
-"""The boom's sections, one in the other, the sheaves of its head with the rope, and the hook block: the sections drawn in
-the boom's frame and put where the linkage has it. Millimetres.
+"""The boom's sections, one in the other, the sheaves of its head with the rope, and the hook block: the sections
+drawn in the boom's frame and put where the linkage has it. Millimetres.
 """
 
 from __future__ import annotations
@@ -132,4 +132,3 @@ def draw_hoist(pose: Pose) -> Assembly:
     hook = fuse(rod((0, 0, bottom + 210), Z, 45, -240 - bottom - 210), bow)
     tree.add(Part("HOOK", hook, GREY), body, at=at)
     return tree
-

@@ -1,8 +1,8 @@
-"""The carrier: rails, axles' mounts, boxes of the outriggers with beams and jacks, the slewing ring's inner race, engine
-and tanks. Machine frame, millimetres.
+"""The carrier: rails, axles' mounts, boxes of the outriggers with beams and jacks, the slewing ring's inner race,
+engine and tanks. Machine frame, millimetres.
 
-Lateral layout, from the middle: rails 350-450; boxes of the beams under them, those of the left beams ahead of those of
-the right ones; wheels outside 892.
+Lateral layout, from the middle: rails 350-450; boxes of the beams under them, those of the left beams ahead of those
+of the right ones; wheels outside 892.
 """
 
 from __future__ import annotations

@@ -1,5 +1,5 @@
-"""Draws a rough-terrain crane of the Tadano GR-250N class as one STEP assembly, its sheet, and the truth about it: on its
-outriggers, or in road order.
+"""Draws a rough-terrain crane of the Tadano GR-250N class as one STEP assembly, its sheet, and the truth about it: on
+its outriggers, or in road order.
 
 `python -m mobile_crane.draw FOLDER`, run in `examples/`, writes `mobile_crane.step`, `specifications.pdf` and
 `truth.json`; the same bytes every time. The values it is drawn to are in `values.py`.

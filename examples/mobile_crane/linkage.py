@@ -1,8 +1,8 @@
-"""The crane's linkages, solved so that they meet its values: boom and luffing cylinder in the plane y = 0, steering from
-above.
+"""The crane's linkages, solved so that they meet its values: boom and luffing cylinder in the plane y = 0, steering
+from above.
 
-Machine frame, millimetres: the slewing axis is x = y = 0, x forward over the cab, z up from the ground. The boom's own
-frame has its foot pin P as origin and x along its sections. Angles are radians.
+Machine frame, millimetres: the slewing axis is x = y = 0, x forward over the cab, z up from the ground. The boom's
+own frame has its foot pin P as origin and x along its sections. Angles are radians.
 """
 
 from __future__ import annotations
@@ -109,7 +109,9 @@ def turning_radius(axle: SteerAxle) -> float:
     normals = np.column_stack([-np.array(axes)[:, 1], np.array(axes)[:, 0]])
     centre = np.linalg.lstsq(normals, np.sum(normals * np.array(places), axis=1), rcond=None)[0]
     wide = v.TYRE_WIDTH.value / 2
-    return float(max(np.hypot(*(p + s * wide * a - centre)) for p, a in zip(places, axes, strict=True) for s in (1, -1)))
+    return float(
+        max(np.hypot(*(p + s * wide * a - centre)) for p, a in zip(places, axes, strict=True) for s in (1, -1))
+    )
 
 
 @functools.cache

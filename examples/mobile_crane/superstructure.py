@@ -1,5 +1,5 @@
-"""What slews on the carrier: ring, base plate, cheeks that carry the boom and its luffing cylinder, counterweight, winch,
-cab. Machine frame, millimetres.
+"""What slews on the carrier: ring, base plate, cheeks that carry the boom and its luffing cylinder, counterweight,
+winch, cab. Machine frame, millimetres.
 
 Lateral layout, from the middle: luffing cylinder's eyes within 100, their bosses from 108 on; boom within 226; cheeks
 235-275; cab beside the boom.

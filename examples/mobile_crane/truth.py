@@ -3,6 +3,7 @@ metres."""
 
 from __future__ import annotations
 
+import itertools
 import math
 from typing import Any
 
@@ -46,7 +47,7 @@ def joints(pose: Pose, pins: dict[str, tuple[Point, Point]]) -> dict[str, dict[s
     found.pivot("superstructure", "boom", _high(P))
     found.cylinder("luffing", "", ("superstructure", "boom"), *(_high(p) for p in pins["luffing"]), Y)
     along = (math.cos(pose.boom), 0.0, math.sin(pose.boom))
-    for one, other in zip(BODIES, BODIES[1:], strict=False):
+    for one, other in itertools.pairwise(BODIES):
         found.slide(one, other, _high(P), along)
     found.cylinder("telescope", "", ("boom", "middle_boom"), *(_high(p) for p in pins["telescope"]), Y)
     found.ball("inner_boom", "hoist_rope", _high(pose.head))

@@ -3,8 +3,8 @@
 * `PUBLISHED`: printed for the Tadano GR-250N, a rough-terrain crane; `location` is where. Its turning radius is that of
   its front wheels, steered alone; its boom has four sections, which one cylinder and ropes draw out together.
 * `EXAMPLE`: ours, plausible for the class; a sheet prints them as "example value".
-* `CHART`: the maker's total rated loads on outriggers drawn out, in tonnes by radius in metres, of those boom lengths at
-  those radii where the loads are bounded by the crane's stability (the loads below the bold lines).
+* `CHART`: the maker's total rated loads on outriggers drawn out, in tonnes by radius in metres, of those boom lengths
+  at those radii where the loads are bounded by the crane's stability (the loads below the bold lines).
 """
 
 from __future__ import annotations

@@ -1,5 +1,4 @@
-"""The mobile crane's template: mobility in every variant, sections that follow by rope, the hook on its rope, the winch,
-outriggers."""
+"""The mobile crane's template: mobility in every variant, sections that follow by rope, the hook, the winch."""
 
 from __future__ import annotations
 
@@ -19,8 +18,8 @@ def test_it_moves_as_it_should(template: Template) -> None:
     report = library.lint(template)
     assert [f for f in report.findings if f.severity != "info"] == []
     for found in report.mobility:
-        # Slewing, luffing, telescoping, steering, four wheels, eight of the outriggers; the rear wheels' steering unless
-        # it follows; the hook's three ways to swing and its rope.
+        # Slewing, luffing, telescoping, steering, four wheels, eight of the outriggers; the rear wheels' steering
+        # unless it follows; the hook's three ways to swing and its rope.
         expected = 16 + (found.choices["steering_mode"] == "front") + 4 * (found.choices["hoist"] == "hook")
         assert (found.computed, found.expected) == (expected, expected), found.choices
     assert len(report.mobility) == 108

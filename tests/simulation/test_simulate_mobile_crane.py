@@ -1,5 +1,5 @@
-"""The mobile crane example in engines: all its actuators over their strokes, rated loads hauled in at three radii, where
-it tips beside the maker's load chart, and how it drives in road order."""
+"""The mobile crane example in engines: all its actuators over their strokes, rated loads hauled in at three radii,
+where it tips beside the maker's load chart, and how it drives in road order."""
 
 from __future__ import annotations
 
@@ -39,7 +39,8 @@ def values() -> ModuleType:
 
 
 @pytest.mark.parametrize(
-    ("engine", "actuators"), [("mujoco", None), ("newton", ["hoist"]), ("physx", ["hoist", "front_outrigger_jack_left"])]
+    ("engine", "actuators"),
+    [("mujoco", None), ("newton", ["hoist"]), ("physx", ["hoist", "front_outrigger_jack_left"])],
 )
 def test_full_strokes(file: Path, engine: str, actuators: list[str] | None) -> None:
     in_engines.need(engine)

@@ -1,5 +1,5 @@
-"""Parametric mobile cranes straight as `Assembly` objects, with the truth: a boom of two to four sections that slews, one
-luffing cylinder or two, a hook on two to eight falls or none, four outriggers drawn out by any share.
+"""Parametric mobile cranes straight as `Assembly` objects, with the truth: a boom of two to four sections that slews,
+one luffing cylinder or two, a hook on two to eight falls or none, four outriggers drawn out by any share.
 
 Every dimension is drawn from a seed, by none of the example's code; simplified as the synthetic loaders are.
 """
@@ -159,7 +159,9 @@ class Crane(SteeredChassis):
                (bore, 0.03), (0.0, 0.03)]  # fmt: skip
         can = [(r * s, h * s) for r, h in can]
         foot_at = np.array([x * s, side * back * s, z * s])
-        m.add("beam barrel", f"{name}_beam_barrel_{letter}", "carrier", lathe("beam_can", can), place(foot_at, side * Y))
+        m.add(
+            "beam barrel", f"{name}_beam_barrel_{letter}", "carrier", lathe("beam_can", can), place(foot_at, side * Y)
+        )
         end_y = 0.87 + out - back
         start = 0.05 + out
         bar = tube(f"beam_rod_{out:.4f}", rod * s, 0.0, (end_y - start) * s)

@@ -40,7 +40,7 @@ def alike_branches(template: Template, unary: Mapping[tuple[int, str], int]) -> 
     found = []
     for names in groups.values():
         bases = {SIDE.sub("", END.sub("", name)) for name in names}
-        hung = [own for own in (_branch(graph, template.root, name) for name in names)]
+        hung = [_branch(graph, template.root, name) for name in names]
         if len(names) > 1 and len(bases) == 1 and not any(_told(of, hung) for of in said.values()):
             found.append(sorted(names))
     return sorted(found)
