@@ -27,8 +27,8 @@ from .superstructure import draw_superstructure
 from .truth import FRAME, truth
 
 POSES = {
-    "working": Pose(math.radians(60.0), 0.1, 1.0, GROUNDED),
-    "road": Pose(math.radians(4.0), 0.0, 0.0, 0.0),
+    "working": Pose(math.radians(60.0), 0.1, 0.99, GROUNDED),
+    "road": Pose(math.radians(4.0), 0.002, 0.005, 0.02),
 }
 """On its outriggers, boom up and drawn out a little; in road order."""
 _SIZES: dict[str, tuple[str, str, tuple[float, ...]]] = {
