@@ -5,6 +5,7 @@ from __future__ import annotations
 import json
 import os
 import re
+import shutil
 import signal
 import subprocess
 import sys
@@ -17,6 +18,7 @@ import pytest
 from kit.builds import console
 from yellowiron.cli import app
 from yellowiron.cli.telling import progress_shown, telling
+from yellowiron.library.type_folders import library_folder
 from yellowiron.model.errors import YellowironError
 
 pytestmark = pytest.mark.usefixtures("cad_read_once")
@@ -54,10 +56,13 @@ def test_a_copy_says_where_it_is(capsys: pytest.CaptureFixture[str], tmp_path: P
 
 
 def test_a_copy_that_has_no_joints_is_not_promised_to_build(capsys: pytest.CaptureFixture[str], tmp_path: Path) -> None:
-    assert not app(["templates", "copy", "mobile_crane", str(tmp_path / "mine")], standalone_mode=False)
+    bare = tmp_path / "bare"
+    bare.mkdir()
+    shutil.copy(library_folder() / "mobile_crane" / "wanted.json", bare)
+    assert not app(["templates", "copy", str(bare), str(tmp_path / "mine")], standalone_mode=False)
     said = capsys.readouterr().out
     assert "build with it" not in said and "yellowiron extract" in said
-    code, copied = _asked(capsys, "templates", "copy", "mobile_crane", tmp_path / "other")
+    code, copied = _asked(capsys, "templates", "copy", bare, tmp_path / "other")
     assert code == 0 and copied["sheet_only"] is True
 
 

@@ -85,7 +85,9 @@ def _tube(c: Cylinder) -> Part:
 def _gland(c: Cylinder) -> Part:
     nose = rod((c.gland_face - 30, 0, 0), X, c.outside / 2, 30.0)
     gland = fuse(rod((c.gland_face - c.gland, 0, 0), X, c.bore / 2, c.gland), nose)
-    return Part(f"{c.name} GLAND", bored(gland, X, ((0, 0, 0), c.rod / 2 + ROD_CLEARANCE)), GREY)
+    # A hole reaches 4 m either way.
+    at = c.gland_face if c.gland_face > 3_900.0 else 0.0
+    return Part(f"{c.name} GLAND", bored(gland, X, ((at, 0, 0), c.rod / 2 + ROD_CLEARANCE)), GREY)
 
 
 def _rod_and_piston(c: Cylinder) -> tuple[Part, Part]:

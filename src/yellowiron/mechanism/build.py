@@ -15,6 +15,7 @@ from yellowiron.mechanism.actuation.cylinders import FittedCylinder
 from yellowiron.mechanism.actuation.direct_drives import direct_drives, with_direct_hinges, without_cylinders
 from yellowiron.mechanism.actuation.proportion import proportion_of
 from yellowiron.mechanism.actuation.usual_hinges import hinges_driven_directly
+from yellowiron.mechanism.actuation.winches import winch_drives, with_winches
 from yellowiron.mechanism.bodies import body, mass
 from yellowiron.mechanism.bodies.choice import Choice
 from yellowiron.mechanism.bodies.hidden_knuckles import with_knuckles
@@ -74,6 +75,7 @@ def build_mechanism(
     placement, findings = place(assembly, template, alignment)
     template = _standing(template, placement, assembly.name, findings)
     whole, template = template, _as_drawn(template, placement, findings)
+    template, winches = with_winches(template)
     wheels = hidden_wheels(placement, template, findings)
     frames, remarks = joint_frames(placement, template, wheels)
     findings += remarks
@@ -108,10 +110,10 @@ def build_mechanism(
     powered |= drives.motor_drives(
         motors, frames, tree.sides, placement, specifications, findings, proportion=proportion, radii=radii
     )
-    powered |= direct_drives(direct, frames)
+    powered |= direct_drives(direct, frames) | winch_drives(template, frames, specifications, findings)
     stated = drives.stated_drives(template, frames, findings)
     powered |= stated
-    actuators = drives.actuators(template, frames, fitted, stated, findings)
+    actuators = drives.actuators(template, frames, fitted, stated, findings, winches=winches)
     slides = {f.cylinder.slide: f for group in fitted.values() for f in group}
     joints = tuple(
         _joint(_sourced(frame, alignment), tree, slides, powered, specifications, findings) for frame in frames.values()

@@ -206,11 +206,12 @@ class CylinderTemplate:
 @dataclass(frozen=True)
 class ActuatorTemplate:
     """What one lever commands. `specifications` maps a quantity (bore, rod_diameter, stroke, closed_length, pressure,
-    flow, extend_time, retract_time, speed, torque) to the wanted name that gives it; `defaults` gives SI values used,
-    and said to be used, where no sheet does. `joints` are the motor joints where `kind` is `motor`."""
+    flow, extend_time, retract_time, speed, torque, line_pull, line_speed, falls) to the wanted name that gives it;
+    `defaults` gives SI values used, and said to be used, where no sheet does. `joints` are the motor joints where
+    `kind` is `motor`. A `winch` moves its cylinders' slides by rope: they are no cylinders, and have no pressure."""
 
     name: str
-    kind: Literal["cylinder", "motor"]
+    kind: Literal["cylinder", "motor", "winch"]
     cylinders: tuple[CylinderTemplate, ...] = ()
     joints: tuple[str, ...] = ()
     specifications: Mapping[str, str] = field(default_factory=dict)

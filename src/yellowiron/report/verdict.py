@@ -44,7 +44,8 @@ def levers_of(mechanism: Mechanism, template: Template, alignment: Alignment) ->
         slides = [c.slide for c in wanted.cylinders if c.slide in edges]
         joints = tuple(dict.fromkeys(j for name in (*slides, *wanted.joints) for j in together.get(name, (name,))))
         actuator = built.get(wanted.name)
-        idle = actuator is None or _idle(actuator, mechanism, looped)
+        # What a winch moves hangs on it, in no loop.
+        idle = actuator is None or (wanted.kind != "winch" and _idle(actuator, mechanism, looped))
         if idle:
             found.append(Lever(wanted.name, False, _why_not(wanted, joints, template, mechanism, alignment)))
             continue

@@ -37,6 +37,13 @@ if TYPE_CHECKING:
     from yellowiron.simulation.engine import Engine, Setup
     from yellowiron.simulation.machine_tests.figures import Figure, figures_document
     from yellowiron.simulation.machine_tests.hydraulics import run_tests
+    from yellowiron.simulation.machine_tests.load_chart import (
+        ChartFigure,
+        ChartLoad,
+        chart_stability,
+        chart_tests,
+        read_load_chart,
+    )
     from yellowiron.simulation.payload import parse_payload, rated_payload
     from yellowiron.simulation.registry import ENGINES, installed_engines
     from yellowiron.simulation.strokes.result import SimulationResult, simulation_document
@@ -45,12 +52,16 @@ if TYPE_CHECKING:
 
 __all__ = [
     "ENGINES",
+    "ChartFigure",
+    "ChartLoad",
     "DrivingResult",
     "Engine",
     "Figure",
     "Setup",
     "SimulationResult",
     "at_rates",
+    "chart_stability",
+    "chart_tests",
     "drive",
     "driving_document",
     "examine",
@@ -58,6 +69,7 @@ __all__ = [
     "installed_engines",
     "parse_payload",
     "rated_payload",
+    "read_load_chart",
     "run_tests",
     "simulate",
     "simulation_document",
@@ -67,6 +79,8 @@ __all__ = [
 __getattr__, __dir__ = lazy_names(
     __name__,
     {
+        "ChartFigure": "machine_tests.load_chart",
+        "ChartLoad": "machine_tests.load_chart",
         "DrivingResult": "driving.result",
         "ENGINES": "registry",
         "Engine": "engine",
@@ -74,6 +88,8 @@ __getattr__, __dir__ = lazy_names(
         "Setup": "engine",
         "SimulationResult": "strokes.result",
         "at_rates": "suite",
+        "chart_stability": "machine_tests.load_chart",
+        "chart_tests": "machine_tests.load_chart",
         "drive": "driving.wheeled",
         "driving_document": "driving.result",
         "examine": "suite",
@@ -81,6 +97,7 @@ __getattr__, __dir__ = lazy_names(
         "installed_engines": "registry",
         "parse_payload": "payload",
         "rated_payload": "payload",
+        "read_load_chart": "machine_tests.load_chart",
         "run_tests": "machine_tests.hydraulics",
         "simulate": "strokes.run",
         "simulation_document": "strokes.result",

@@ -13,6 +13,7 @@ import numpy as np
 from kit.machines import solids as align_solids
 from kit.machines.articulated_trucks import articulated_truck
 from kit.machines.backhoes import backhoe
+from kit.machines.cranes import crane
 from kit.machines.crawler import merged
 from kit.machines.excavators import Features, excavator
 from kit.machines.lift_trucks import lift_truck
@@ -49,6 +50,8 @@ def drawn(kind: str, seed: int, *, segments: int = 32, hollow: bool = True) -> M
             return rigid_truck(seed, embedded=embedded)
         if kind == "roller":
             return roller(seed, embedded=embedded)
+        if kind == "crane":
+            return crane(seed, embedded=embedded)
         if kind == "telehandler":
             return telehandler(seed, embedded=embedded)
         if kind == "wheeled_excavator":

@@ -8,7 +8,7 @@ from __future__ import annotations
 
 import itertools
 from collections import Counter
-from collections.abc import Collection, Iterable, Mapping
+from collections.abc import Collection, Iterable, Mapping, Sequence
 from dataclasses import dataclass, field, replace
 from typing import Any
 
@@ -83,13 +83,15 @@ def solve(
     without: tuple[int, str] | None = None,
     at_least: int | None = None,
     effort: Effort | None = None,
+    alike: Sequence[Sequence[str]] = (),
 ) -> Solution | None:
     """The best assignment of clusters to the template's rigid roles (a resolved template, see `choose`).
 
     `unary[(cluster, body)]` adds weight (a joint counts `JOINT_WEIGHT`); names, sizes and sides come in by it.
     `barred`: (joint, hinge) that cannot be the same; `without`: (cluster, body) that is not to be. None where no
     assignment's objective is `at_least` so much: to be told so is quicker than the best; and where `effort` (default:
-    `MOST`), which this takes from, was spent before one was found.
+    `MOST`), which this takes from, was spent before one was found. `alike`: bodies that may all change places, each
+    with what hangs on it (`symmetries.alike_branches`): of the answers that differ by that alone one is looked for.
     """
     from ortools.sat.python import cp_model
 
@@ -108,6 +110,8 @@ def solve(
     _add_one_joint_each(program)
     _add_directions(program, structure, template)
     _add_weights(program, unary, linked)
+    for group in alike:
+        _add_order(program, group, len(structure.clusters))
     if without in program.x:
         program.model.add(program.x[without] == 0)
     total = sum(weight * v for weight, v in program.terms)
@@ -276,6 +280,16 @@ def _add_directions(program: _Program, structure: Structure, template: Template)
         for a, b in never_together(firsts):
             if (turned, a) in lies and (tool, b) in lies:
                 model.add_at_most_one([lies[turned, a], lies[tool, b]])
+
+
+def _add_order(program: _Program, group: Sequence[str], last: int) -> None:
+    """The clusters that play these bodies in the order of their numbers; those that are not played come last."""
+    ranks = []
+    for body in group:
+        own = [(c, v) for (c, b), v in program.x.items() if b == body]
+        ranks.append(last + sum((c - last) * v for c, v in own))
+    for one, other in itertools.pairwise(ranks):
+        program.model.add(one <= other)
 
 
 def _add_weights(program: _Program, unary: Mapping[tuple[int, str], int], linked: Collection[int]) -> None:

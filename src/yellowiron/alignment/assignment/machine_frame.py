@@ -14,6 +14,7 @@ from yellowiron.alignment.features.solids import Solid
 from yellowiron.alignment.features.tracks import Track
 from yellowiron.alignment.features.wheels import Wheel
 from yellowiron.alignment.structure.clusters import Structure
+from yellowiron.alignment.structure.observation import slewing_joints
 from yellowiron.alignment.tolerances import SAME_DIRECTION
 from yellowiron.model.geometry import Floats
 from yellowiron.model.template import Template
@@ -27,6 +28,8 @@ LYING = 0.01
 """Axles within this sine lie in a plane, and wheels within this share of their radius stand on one."""
 _ALIKE_WHEELS, _LEVELLED = 0.02, 4
 """Radii that differ by less are one size; where they differ, so many times the ground is laid under the wheels anew."""
+LEANING = 0.2
+"""Least level part of the unit way from a boom's section to the one in it that tells which way the boom points."""
 SNAP = 1e-6
 """A rotation this near to a signed permutation of the axes is that permutation."""
 
@@ -269,7 +272,8 @@ def _joined_to_root(template: Template, swing: str | None) -> set[str]:
 
 def _forward_sense(scene: _Scene, forward: Floats) -> int:
     """Whether the arms lie ahead of the root (+1) or behind it (−1); without the one or the other, the names `front`
-    and `rear`, or the last arms ahead of the first."""
+    and `rear`, or the last arms ahead of the first. Of a machine that slews the sections of its boom come out ahead,
+    wherever that is pinned: a crane's raised boom may stand behind the middle of what carries it."""
     kinds, template = scene.kinds, scene.template
 
     def centre(bodies: list[str]) -> Floats | None:
@@ -284,6 +288,13 @@ def _forward_sense(scene: _Scene, forward: Floats) -> int:
     last, first = (
         centre([b for b in depths if depths[b] == end(depths.values())]) if depths else None for end in (max, min)
     )
+    for joint in template.joints if slewing_joints(template) else ():
+        ends = template.bodies_of(joint)
+        if joint.type == "prismatic" and all(b is not None and kinds[b] == "arm" for b in ends):
+            one, other = (centre([str(b)]) for b in ends)
+            out = None if one is None or other is None else other - one
+            if out is not None and abs(float(out @ forward)) > LEANING * float(np.linalg.norm(out)):
+                return 1 if float(out @ forward) > 0 else -1
     for ahead, behind in ((arms, root), (front, rear), (last, first)):
         if ahead is not None and behind is not None and abs(float((ahead - behind) @ forward)) > 1e-6:
             return 1 if float((ahead - behind) @ forward) > 0 else -1

@@ -31,6 +31,7 @@ from yellowiron.alignment.assignment.cp_sat import (
 from yellowiron.alignment.assignment.names import name_scores
 from yellowiron.alignment.assignment.one_sided import one_sided
 from yellowiron.alignment.assignment.sheet_weights import sheet_weights
+from yellowiron.alignment.assignment.symmetries import alike_branches
 from yellowiron.alignment.assignment.weights import (
     MOSTLY,
     decided_shares,
@@ -169,7 +170,10 @@ class Search:
                 unary[key] = unary.get(key, 0) + weight
         barred = _barred(structure, resolved, observation.up)
         least = _least(self.best, structure, resolved, unary) if self.best is not None else None
-        solution = solve(structure, resolved, unary=unary, barred=barred, at_least=least, effort=self._effort)
+        alike = alike_branches(resolved, unary)
+        solution = solve(
+            structure, resolved, unary=unary, barred=barred, at_least=least, effort=self._effort, alike=alike
+        )
         if solution is None:
             return
         drawn = across_absent(resolved, set(solution.body_of.values()))
@@ -211,7 +215,10 @@ def _by_cylinders(variants: list[dict[str, str]], template: Template, drawn: int
     special = template.special()
     groups: dict[tuple[int, bool], list[dict[str, str]]] = {}
     for chosen in variants:
-        count = sum(1 for r in machine_of(template, chosen).roles if r.kind == "barrel")
+        machine = machine_of(template, chosen)
+        count = sum(1 for r in machine.roles if r.kind == "barrel")
+        # A rope in its block looks like one.
+        count += sum(len(a.cylinders) for a in machine.actuators if a.kind == "winch")
         groups.setdefault((abs(count - drawn), not special.isdisjoint(chosen.items())), []).append(chosen)
     return [groups[key] for key in sorted(groups)]
 

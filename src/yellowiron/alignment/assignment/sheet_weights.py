@@ -38,12 +38,15 @@ def sheet_findings(
     solution: Solution,
 ) -> list[Finding]:
     """A remark (ALN006) for each cylinder that is not drawn as the sheet has it."""
-    slides = {solution.body_of.get(b): n for b, _, n in structure.slides if n < len(cylinders)}
+    # By both bodies: the barrels of several may be fixed to one.
+    slides = {
+        frozenset(solution.body_of.get(k) for k in (a, b)): n for a, b, n in structure.slides if n < len(cylinders)
+    }
     findings = []
-    for barrel, _, quantity, name, value in _known(template, specifications):
-        if barrel not in slides:
+    for barrel, rod, quantity, name, value in _known(template, specifications):
+        if frozenset((barrel, rod)) not in slides:
             continue
-        drawn = _drawn(cylinders[slides[barrel]], quantity)
+        drawn = _drawn(cylinders[slides[frozenset((barrel, rod))]], quantity)
         if drawn is not None and abs(drawn - value) > AGREE * value:
             text = f"{name} is {1e3 * value:.4g} mm on the sheet and {1e3 * drawn:.4g} mm in the CAD model"
             hint = "Check the sheet's value, the model's unit, and the cylinder's role."

@@ -1,4 +1,4 @@
-"""Left and right in the names of roles."""
+"""Left and right, front and rear in the names of roles."""
 
 from __future__ import annotations
 
@@ -6,6 +6,10 @@ import re
 
 SIDE = re.compile(r"(?<=_)([lr])(?=_|$)")
 """What says the side in a role's name."""
+
+
+END = re.compile(r"(?:^|(?<=_))(front|middle|rear)(?=_|$)")
+"""What says the end."""
 
 
 def twin_role(name: str) -> str | None:

@@ -5,14 +5,13 @@ A found joint counts `solve.JOINT_WEIGHT`; everything here counts less, save a p
 
 from __future__ import annotations
 
-import re
 from collections.abc import Callable, Collection, Mapping, Sequence
 
 import numpy as np
 
 from yellowiron.alignment.assignment.cp_sat import Solution
 from yellowiron.alignment.assignment.machine_frame import MachineFrame
-from yellowiron.alignment.assignment.sides import SIDE, twin_role
+from yellowiron.alignment.assignment.sides import END, SIDE, twin_role
 from yellowiron.alignment.features.solids import Solid
 from yellowiron.alignment.structure.clusters import Structure
 from yellowiron.model.geometry import Floats
@@ -35,9 +34,8 @@ AS_GOOD = 0.1
 """Bodies that a name speaks of this nearly as much as of the one it speaks of most are meant as well."""
 TRUSTING = 6
 """So many parts must contradict their names as clearly as if so many more agreed: names are mostly right."""
-_END = re.compile(r"(?:^|(?<=_))(front|middle|rear)(?=_|$)")
 _ORDER = ("front", "middle", "rear")
-"""The words of `_END` as they stand behind each other."""
+"""The words of `END` as they stand behind each other."""
 
 
 def name_weights(
@@ -134,22 +132,31 @@ def size_weights(solids: tuple[Solid, ...], structure: Structure, template: Temp
 
 
 def interchangeable(template: Template, *, joints: bool = True) -> list[frozenset[str]]:
-    """Groups of bodies whose names differ in front, middle, rear, left, right alone and which hang on the same bodies
-    by joints of one type: a machine's four wheels on one chassis. Only where they stand tells which is which. Without
-    `joints`, whatever they hang on: where a person said what is ahead, that tells as much."""
+    """Groups of bodies whose names differ in front, middle, rear, left, right alone and which the joints do not tell
+    apart: a machine's four wheels on one chassis, and what steers two axles alike. Only where they stand tells which is
+    which. Without `joints`, whatever they hang on: where a person said what is ahead, that tells as much."""
     rigid = [r.name for r in template.roles if r.rigid]
+    plain = {name: SIDE.sub("", END.sub("", name)) for name in rigid}
     joined: dict[str, list[tuple[str, str]]] = {name: [] for name in rigid}
     for joint in template.joints:
         a, b = template.bodies_of(joint)
         if a in joined and b in joined:
             joined[a].append((joint.type, b))
             joined[b].append((joint.type, a))
-    groups: dict[tuple[str, tuple[tuple[str, str], ...]], set[str]] = {}
+    # Bodies that are joined alike to bodies that are joined alike, and so on.
+    alike = dict(plain)
+    kinds = 0
+    while joints and len(set(alike.values())) > kinds:
+        kinds = len(set(alike.values()))
+        beside = {n: sorted((kind, END.sub("", b), alike[b]) for kind, b in joined[n]) for n in rigid}
+        held = {name: (alike[name], tuple(beside[name])) for name in rigid}
+        numbers = {key: number for number, key in enumerate(dict.fromkeys(held.values()))}
+        alike = {name: f"{numbers[held[name]]:06d}" for name in rigid}
+    groups: dict[tuple[str, str], set[str]] = {}
     for name in rigid:
-        if _END.search(name):
-            held = tuple(sorted(joined[name])) if joints else ()
-            groups.setdefault((SIDE.sub("", _END.sub("", name)), held), set()).add(name)
-    return [frozenset(g) for g in groups.values() if len({_END.findall(name)[0] for name in g}) > 1]
+        if END.search(name):
+            groups.setdefault((plain[name], alike[name] if joints else ""), set()).add(name)
+    return [frozenset(g) for g in groups.values() if len({END.findall(name)[0] for name in g}) > 1]
 
 
 def between_twins(template: Template) -> list[tuple[str, str, str]]:
@@ -226,11 +233,11 @@ def side_weights(
     for names in sorted(alike, key=sorted):
         there = {name: place(cluster_of[name]) for name in names if name in cluster_of}
         middle = np.mean(list(there.values()), axis=0) if there else np.zeros(3)
-        foremost = min((_END.findall(name)[0] for name in names), key=_ORDER.index)
+        foremost = min((END.findall(name)[0] for name in names), key=_ORDER.index)
         for found, at in there.items():
             ahead, leftward = (bool(at[axis] > middle[axis]) for axis in (0, 1))
             for name in names:
-                ends, sides = _END.findall(name), SIDE.findall(name)
+                ends, sides = END.findall(name), SIDE.findall(name)
                 fits = (ends[0] == foremost) == ahead and (not sides or (sides[0] == "l") == leftward)
                 where = (cluster_of[found], name)
                 sided[where] = sided.get(where, 0) + (SIDE_WEIGHT if fits else -SIDE_WEIGHT)

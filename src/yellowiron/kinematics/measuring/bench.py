@@ -18,6 +18,8 @@ from yellowiron.kinematics.tolerances import REACHED
 from yellowiron.model.mechanism import Actuator, Mechanism
 from yellowiron.support.units import parse_quantity
 
+_AT_END = 1e-9
+"""Metres or radians by which a value may lie beyond the end of a stroke."""
 _SAMPLES = 17
 """Poses over a stroke between which a root is looked for."""
 
@@ -145,6 +147,7 @@ class Bench:
         names = list(dict.fromkeys(str(condition["actuator"]) for condition in conditions))
         if len(names) != len(conditions):
             raise Unmeasurable("a solve step needs one condition for each of its actuators")
+        conditions = [self._known(condition) for condition in conditions]
         words = " and ".join(_words(condition) for condition in conditions)
         if len(names) == 1:
             (condition,) = conditions
@@ -158,6 +161,11 @@ class Bench:
                 condition["quantity"],
             )
         return self._roots(names, conditions, state, words)
+
+    def _known(self, condition: Mapping[str, Any]) -> Mapping[str, Any]:
+        """A condition with the value that a sheet gives for its specification, times its factor, where it does."""
+        value = specified(self.mechanism, str(condition.get("specification", "")))[0]
+        return condition if value is None else {**condition, "value": float(condition.get("factor", 1)) * value}
 
     def _extreme(self, wanted: Mapping[str, Any], state: State) -> State:
         subjects = [(each["quantity"], _number(each["value"])) for each in wanted.get("subject", ())]
@@ -196,6 +204,9 @@ class Bench:
         spans = [k for k in range(len(states) - 1) if errors[k] * errors[k + 1] <= 0.0 and abs(errors[k]) < math.inf]
         # A jump by a full turn is no root.
         spans = [k for k in spans if abs(errors[k] - errors[k + 1]) < math.pi or quantity is None]
+        nearest = min(range(len(states)), key=lambda k: abs(errors[k]), default=None)
+        if not spans and nearest is not None and abs(errors[nearest]) < _AT_END:
+            return states[nearest]  # the value is that of an end of the stroke, and round-off missed it
         if not spans:
             found = sorted(error + value for error in errors)
             ranged = f"within the strokes it goes from {_shown(found[0], quantity)} to {_shown(found[-1], quantity)}"

@@ -24,6 +24,9 @@ _QUANTITY_DIMENSION: Mapping[str, str] = {
     "retract_time": "time",
     "speed": "speed",
     "torque": "torque",
+    "line_pull": "force",
+    "line_speed": "speed",
+    "falls": "count",
 }
 """What an actuator can need → its dimension. A motor's speed is the tyre's or track's at the ground, or its own: then
 it is of dimension angular_speed."""
@@ -95,7 +98,7 @@ def read_actuators(
     for name, entry in document.data.items():
         cylinders = [cylinder_of(c, name, "cylinders", i) for i, c in enumerate(entry.get("cylinders", ()))]
         motors = tuple(joint(j, name, "joints", i).name for i, j in enumerate(entry.get("joints", ())))
-        needed, other = ("cylinders", motors) if entry["kind"] == "cylinder" else ("joints", cylinders)
+        needed, other = ("joints", cylinders) if entry["kind"] == "motor" else ("cylinders", motors)
         if other or not (cylinders or motors):
             raise TemplateError(
                 f"Actuator '{name}' is {with_article(entry['kind'])} and needs '{needed}', and nothing else that moves",

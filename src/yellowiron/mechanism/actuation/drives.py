@@ -100,7 +100,8 @@ def motor_drives(
     drives = {}
     pulling = _pulling(template, frames)
     for actuator in template.actuators:
-        joints = [frames[name] for name in actuator.joints if name in frames]
+        turning_joints = actuator.joints if actuator.kind == "motor" else ()
+        joints = [frames[name] for name in turning_joints if name in frames]
         torque = _value(actuator, "torque", specifications, findings) if joints else None
         top = _value(actuator, "speed", specifications, findings) if joints else None
         for frame in joints:
@@ -164,8 +165,11 @@ def actuators(
     fitted: Mapping[str, Sequence[FittedCylinder]],
     stated: Mapping[str, Drive],
     findings: list[Finding],
+    *,
+    winches: Mapping[str, Sequence[ActuatorJoint]],
 ) -> tuple[Actuator, ...]:
-    """The template's actuators that have something left to move, then one for every joint whose drive is `stated`."""
+    """The template's actuators that have something left to move, then one for every joint whose drive is `stated`.
+    `winches`: what each moves; to the engines they are cylinders without oil."""
     result = []
     for entry in template.actuators:
         cylinders = fitted.get(entry.name, ())
@@ -173,10 +177,12 @@ def actuators(
             joints = tuple(ActuatorJoint(f.cylinder.slide, f.sign) for f in cylinders)
             moves = any(not f.cylinder.passive for f in cylinders)
         else:
-            joints = tuple(ActuatorJoint(name) for name in entry.joints if name in frames)
+            given = winches.get(entry.name) or [ActuatorJoint(name) for name in entry.joints]
+            joints = tuple(each for each in given if each.joint in frames)
             moves = bool(joints)
         if moves and not entry.slave:
-            result.append(Actuator(entry.name, entry.kind, joints, tuple(f.cylinder.name for f in cylinders)))
+            moved_by: Literal["cylinder", "motor"] = "motor" if entry.kind == "motor" else "cylinder"
+            result.append(Actuator(entry.name, moved_by, joints, tuple(f.cylinder.name for f in cylinders)))
         elif not entry.slave:
             words = "None of the actuator's driven joints was found: it is left out."
             hint = "Check its cylinders' parts in the alignment."

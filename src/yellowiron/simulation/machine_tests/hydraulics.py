@@ -55,23 +55,26 @@ def run_tests(
     engine: str,
     dt: float | None = None,
     names: Sequence[str] | None = None,
+    tests: Sequence[MachineTest] | None = None,
     progress: Callable[[str], None] = lambda words: None,
 ) -> tuple[Figure, ...]:
-    """The tests that the machine's template states, or those of the given names, in an engine, beside the sheet.
+    """The tests that the machine's template states, or those of the given names, in an engine, beside the sheet; with
+    `tests` those instead (`chart_tests`).
 
     `YellowironError` for an unknown engine or test, an engine that is not installed, and an unusable file.
     """
     step = find_engine(engine).timestep if dt is None else dt
     import_engine(engine)
     mechanism = attached(usd.read_mechanism(usd_path))
-    known = [test.name for test in mechanism.tests]
+    stated = mechanism.tests if tests is None else tests
+    known = [test.name for test in stated]
     for name in names or ():
         if name not in known:
             raise YellowironError(
                 f"There is no test '{name}'", where=mechanism.name, hint=f"Known: {', '.join(known)}."
             )
     figures = []
-    for test in mechanism.tests:
+    for test in stated:
         if names is None or test.name in names:
             progress(f"Testing in {engine}: {test.name}")
             figures.append(_tested(_Trial(engine, Path(usd_path), mechanism, test, step)))
@@ -142,6 +145,9 @@ class _Trial:
         if self.flow is not None and area > 0.0:
             return self.flow / area
         own = [c.speed for c in self.mechanism.cylinders if c.slide == self.driven and c.speed > 0.0]
+        drive = self.mechanism.joint(self.driven).drive
+        if not own and area == 0.0 and drive is not None and math.isfinite(drive.max_velocity):
+            return drive.max_velocity  # a winch's
         if not own:
             raise Unmeasurable("neither a flow nor a speed is known")
         return own[0]

@@ -1,0 +1,125 @@
+"""A crane's load chart beside the machine: at what load it tips at every radius and boom length, by statics, and the
+tests that haul the chart's loads in in an engine. SI."""
+
+from __future__ import annotations
+
+import csv
+from collections.abc import Iterable, Mapping
+from dataclasses import dataclass
+from pathlib import Path
+from typing import Any
+
+import numpy as np
+
+from yellowiron import usd
+from yellowiron.kinematics import attached
+from yellowiron.kinematics.measuring.bench import Bench
+from yellowiron.kinematics.measuring.quantities import Unmeasurable
+from yellowiron.model.errors import YellowironError
+from yellowiron.model.machine_tests import MachineTest
+from yellowiron.model.mechanism import GRAVITY, Mechanism
+from yellowiron.simulation.machine_tests.statics import place, tipping_force
+from yellowiron.simulation.payload import rated_payload
+
+FOOT, HEAD, SLEW = "boom_foot", "boom_head", "slew"
+"""The sites that a boom's length is between, and the actuator that turns what it is on."""
+
+
+@dataclass(frozen=True)
+class ChartLoad:
+    """What a chart allows: a mass (kg), hook and slings in it, at a boom's length and a radius, metres."""
+
+    boom_length: float
+    radius: float
+    load: float
+
+
+@dataclass(frozen=True)
+class ChartFigure:
+    """A load of the chart and the mass (kg) under the boom's head, hook in it, at which the machine tips by statics,
+    or `reason`, why there is none."""
+
+    row: ChartLoad
+    tips_at: float | None
+    reason: str = ""
+
+
+def read_load_chart(path: str | Path) -> tuple[ChartLoad, ...]:
+    """The loads of a CSV file: in its first row the boom's lengths in metres behind one cell of any words, below them
+    the radius in metres and the loads in kilograms; a cell without a load is empty. `YellowironError` for anything
+    else."""
+    try:
+        rows = [row for row in csv.reader(Path(path).read_text(encoding="utf-8").splitlines()) if any(row)]
+        lengths = [float(cell) for cell in rows[0][1:]]
+        found = [
+            ChartLoad(length, float(row[0]), float(cell))
+            for row in rows[1:]
+            for length, cell in zip(lengths, row[1:], strict=True)
+            if cell.strip()
+        ]
+    except (OSError, UnicodeDecodeError, ValueError, IndexError) as error:
+        hint = "First row: a word, then boom lengths in m; each further row: radius in m, then loads in kg."
+        raise YellowironError(f"The load chart cannot be read: {error}", where=str(path), hint=hint) from error
+    return tuple(found)
+
+
+def chart_stability(usd_path: str | Path, chart: Iterable[ChartLoad]) -> tuple[ChartFigure, ...]:
+    """Where the machine in a file tips beside its chart, over the front, standing as it is drawn. `YellowironError` for
+    a machine without a boom that slews and telescopes."""
+    mechanism = attached(usd.read_mechanism(usd_path))
+    return tuple(_stability(mechanism, row) for row in chart)
+
+
+def chart_tests(usd_path: str | Path, chart: Iterable[ChartLoad]) -> tuple[MachineTest, ...]:
+    """For `run_tests`: each load of the chart is hauled in by the winch at its radius, on the ground."""
+    mechanism = attached(usd.read_mechanism(usd_path))
+    rated = rated_payload(mechanism).mass
+    if rated <= 0.0:
+        raise YellowironError("The machine's rated load is not known", where=mechanism.name, hint="Give it with --set.")
+    hook = _hanging(mechanism)
+    return tuple(
+        MachineTest(
+            f"{row.load:g} kg at {row.radius:g} m, boom {row.boom_length:g} m", "lift",
+            steps=(*_steps(mechanism, row), {"set": {"hoist": "min"}}), actuator="hoist",
+            payload=(row.load - hook) / rated,
+        )
+        for row in chart
+    )  # fmt: skip
+
+
+def _stability(mechanism: Mechanism, row: ChartLoad) -> ChartFigure:
+    bench = Bench(mechanism)
+    site = next(s for s in mechanism.sites if s.name == HEAD)
+    try:
+        state = bench.pose(_steps(mechanism, row))
+        head = place(bench.chain, state, site)
+        force = tipping_force(mechanism, bench.chain, state, head, np.array([0.0, 0.0, -1.0]))
+    except Unmeasurable as why:
+        return ChartFigure(row, None, str(why))
+    return ChartFigure(row, force / GRAVITY + _hanging(mechanism))
+
+
+def _steps(mechanism: Mechanism, row: ChartLoad) -> tuple[Mapping[str, Any], ...]:
+    """The pose at a boom's length and a radius, as a measurement's steps."""
+    joint = next((a.joints[0].joint for a in mechanism.actuators if a.name == SLEW), None)
+    actuators, sites = {a.name for a in mechanism.actuators}, {s.name for s in mechanism.sites}
+    if joint is None or not {"telescope", "luffing", "hoist"} <= actuators or not {FOOT, HEAD} <= sites:
+        raise YellowironError(
+            "A load chart is for a crane: its boom slews, luffs and telescopes, and a hook hangs on it",
+            where=mechanism.name,
+            hint="Build it with the type mobile_crane.",
+        )
+    length = {"kind": "distance", "sites": [FOOT, HEAD]}
+    radius = {"kind": "radius", "joint": joint, "site": HEAD}
+    return (
+        {"solve": [{"actuator": "telescope", "quantity": length, "value": row.boom_length}]},
+        {"solve": [{"actuator": "luffing", "quantity": radius, "value": row.radius}]},
+    )
+
+
+def _hanging(mechanism: Mechanism) -> float:
+    """Mass of what hangs on the boom's head: a chart's loads have it in them."""
+    below = {j.body1 for j in mechanism.joints if j.free and j.type == "spherical"}
+    for joint in mechanism.joints:
+        below |= {joint.body1} if joint.body0 in below else set()
+    return sum(b.mass for b in mechanism.bodies if b.name in below)

@@ -1,0 +1,53 @@
+"""The mobile crane's template: mobility in every variant, sections that follow by rope, the hook, the winch."""
+
+from __future__ import annotations
+
+import pytest
+
+from yellowiron import library
+from yellowiron.alignment.assignment.weights import interchangeable
+from yellowiron.model.template import Template, choose
+
+
+@pytest.fixture(scope="module")
+def template() -> Template:
+    return library.load_template("mobile_crane")
+
+
+def test_it_moves_as_it_should(template: Template) -> None:
+    report = library.lint(template)
+    assert [f for f in report.findings if f.severity != "info"] == []
+    for found in report.mobility:
+        # Slewing, luffing, telescoping, steering, four wheels, eight of the outriggers; the rear wheels' steering
+        # unless it follows; the hook's three ways to swing and its rope.
+        expected = 16 + (found.choices["steering_mode"] == "front") + 4 * (found.choices["hoist"] == "hook")
+        assert (found.computed, found.expected) == (expected, expected), found.choices
+    assert len(report.mobility) == 108
+
+
+@pytest.mark.parametrize(("sections", "followers"), [("two", 0), ("three", 1), ("four", 2)])
+def test_inner_sections_follow_by_rope(template: Template, sections: str, followers: int) -> None:
+    chosen = choose(template, {"sections": sections})
+    follows = [j.follows for j in chosen.joints if j.follows is not None and j.follows.kind == "rope"]
+    assert len(follows) == followers and all(f.ratio == 1.0 for f in follows)
+
+
+def test_a_winch_moves_the_hook_and_is_no_cylinder(template: Template) -> None:
+    winch = next(a for a in template.actuators if a.name == "hoist")
+    assert winch.kind == "winch" and [c.sign for c in winch.cylinders] == [-1]
+    assert set(winch.specifications) == {"line_pull", "line_speed", "falls"} == set(winch.defaults)
+    hung = template.joint("inner_boom2hoist_rope_joint")
+    assert hung.type == "spherical" and hung.free and hung.drive is None
+    assert "hoist" not in {a.name for a in choose(template, {"hoist": "none"}).actuators}
+
+
+def test_only_places_tell_its_axles_and_outriggers_apart(template: Template) -> None:
+    """Both axles steer alike, and all four outriggers are alike: the joints do not say which is in front."""
+    groups = interchangeable(choose(template, {}))
+    assert {frozenset({f"front_{n}_{s}", f"rear_{n}_{s}"}) for n in ("knuckle", "wheel", "tie_rod") for s in "lr"} <= {
+        *groups
+    }
+    assert frozenset({"front_outrigger_beam_l", "rear_outrigger_beam_l"}) in groups
+    # A telehandler's axles are not alike: one oscillates.
+    telehandler = choose(library.load_template("telehandler"), {})
+    assert not any("front_knuckle_l" in group for group in interchangeable(telehandler))
