@@ -99,4 +99,3 @@ def _on(i: int, placed: Mapping[int, Place], touch: Touch) -> Place | None:
 
 def _as(host: Place, confidence: float) -> Place:
     return Place(host.body, host.body, confidence, f"a fitting on {host.body}", how="touch")
-
