@@ -175,8 +175,11 @@ def find_roles(
         limb = fewer and ((now > before and lacking < lacked) or rolls) and len(lost) <= len(gained)
         most = hidden(alignment) > len(moving) and hidden(other) < 0.5 * hidden(alignment)
         pinned = len(other.missing) < 0.5 * len(alignment.missing)
-        # Names that agree with the meshes and not with what is made of their crumbs tell these to be another machine's.
-        contrary = misnamed(other) and not misnamed(best)
+        # Names that agree with the meshes and not with what is made of their crumbs tell these to be another machine's;
+        # of meshes that are few bodies of many (one a material) they tell nothing.
+        played = {part.body for part in best.parts} - {*best.missing}
+        told = not misnamed(best) and hidden(best) <= len(played)
+        contrary = told and misnamed(other)
         if not contrary and (limb or ((fewer or best is alignment) and (most or pinned))):
             model, best = apart, other
     return model, _of_drawn(best, model, template)
