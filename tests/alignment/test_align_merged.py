@@ -210,8 +210,8 @@ def test_a_variant_with_fewer_limbs_finds_none(
 def test_pieces_that_the_names_contradict_are_no_better_reading(
     contradicted_before: bool, few: bool, taken: bool, monkeypatch: pytest.MonkeyPatch
 ) -> None:
-    """The names agree with the meshes, and not with what is made of their crumbs, which play more roles; where few bodies
-    are meshes of their own, names tell nothing."""
+    """The names agree with the meshes, and not with what is made of their crumbs, which play more roles; where few
+    bodies are meshes of their own, names tell nothing."""
     machine = drawn("excavator", 3).assembly()
     pieces = replace(machine, name="pieces")
     template = load_template("excavator")
