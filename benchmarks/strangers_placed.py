@@ -84,7 +84,7 @@ FACES = {
 
 def mjcf(job: Job) -> Placed:
     """Meshes by an MJCF's body tree as drawn."""
-    root = ET.parse(job.file("excavator.xml")).getroot()
+    root = ET.parse(job.file(".xml")).getroot()
     files = {f.stem: f for f in job.files if f.suffix != ".xml"}
     turns = {Path(m.get("file", "")).stem: _numbers(m.get("refquat"), "1 0 0 0") for m in root.iter("mesh")}
 

@@ -125,6 +125,10 @@ def find_roles(
         """How many wheels are missing."""
         return sum(role.name in unplayed(alignment) for role in template.roles if role.kind == "wheel")
 
+    def misnamed(alignment: Alignment) -> bool:
+        """Whether names contradict what was found."""
+        return any(finding.code == "ALN015" for finding in alignment.findings)
+
     def limbs(alignment: Alignment) -> tuple[int, int]:
         """How many arms, links and tools are found, and missing: they are drawn into others, which frames are too large
         for."""
@@ -171,7 +175,12 @@ def find_roles(
         limb = fewer and ((now > before and lacking < lacked) or rolls) and len(lost) <= len(gained)
         most = hidden(alignment) > len(moving) and hidden(other) < 0.5 * hidden(alignment)
         pinned = len(other.missing) < 0.5 * len(alignment.missing)
-        if limb or ((fewer or best is alignment) and (most or pinned)):
+        # Names that agree with the meshes and not with what is made of their crumbs tell these to be another machine's;
+        # of meshes that are few bodies of many (one a material) they tell nothing.
+        played = {part.body for part in best.parts} - {*best.missing}
+        told = not misnamed(best) and hidden(best) <= len(played)
+        contrary = told and misnamed(other)
+        if not contrary and (limb or ((fewer or best is alignment) and (most or pinned))):
             model, best = apart, other
     return model, _of_drawn(best, model, template)
 

@@ -18,6 +18,7 @@ from yellowiron.cad.mesh.assembly import Occurrence, assemble
 from yellowiron.library import load_template
 from yellowiron.model.alignment import Alignment, Decisions, Signature
 from yellowiron.model.assembly import Assembly
+from yellowiron.model.finding import Finding
 from yellowiron.model.geometry import Mesh
 from yellowiron.model.specification import Specifications
 from yellowiron.stages import find_roles
@@ -196,6 +197,33 @@ def test_a_variant_with_fewer_limbs_finds_none(
             left = ("adjust_boom", *(name for name in missing if name not in found_too))
             return replace(found, choices={**found.choices, "boom_type": "mono"}, missing=left)
         return replace(found, choices={**found.choices, "boom_type": "two_piece"}, missing=(*missing, "adjust_boom"))
+
+    monkeypatch.setattr(stages, "_roles_of_whole", told)
+    monkeypatch.setattr(stages, "kept", lambda *_: pieces)
+    model, _ = stages.find_roles(machine, template, Specifications())
+    assert (model is pieces) is taken
+
+
+@pytest.mark.parametrize(
+    ("contradicted_before", "few", "taken"), [(False, False, False), (True, False, True), (False, True, True)]
+)
+def test_pieces_that_the_names_contradict_are_no_better_reading(
+    contradicted_before: bool, few: bool, taken: bool, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    """The names agree with the meshes, and not with what is made of their crumbs, which play more roles; where few
+    bodies are meshes of their own, names tell nothing."""
+    machine = drawn("excavator", 3).assembly()
+    pieces = replace(machine, name="pieces")
+    template = load_template("excavator")
+    found = replace(align(machine, template, Specifications()), findings=())
+    bodies = tuple(sorted({str(part.body) for part in found.parts} - {template.root}))
+    contrary = (Finding("ALN015", "info", "excavator", "The parts' names contradict the joints", "Check the names."),)
+
+    def told(model: Assembly, *_: object, **__: object) -> Alignment:
+        if model is pieces:
+            return replace(found, missing=("boom",), findings=contrary)
+        missing = bodies if few else ("boom", "arm", "bucket", "boom_pin")
+        return replace(found, missing=missing, findings=contrary if contradicted_before else ())
 
     monkeypatch.setattr(stages, "_roles_of_whole", told)
     monkeypatch.setattr(stages, "kept", lambda *_: pieces)

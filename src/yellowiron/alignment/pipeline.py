@@ -39,16 +39,17 @@ from yellowiron.alignment.copies import copies_of
 from yellowiron.alignment.facing import Facing
 from yellowiron.alignment.features.distance import Touch, touch_of
 from yellowiron.alignment.features.separate_parts import separate_parts
-from yellowiron.alignment.features.solids import solids_of
+from yellowiron.alignment.features.solids import size_of, solids_of
 from yellowiron.alignment.features.telescopes import Nest
 from yellowiron.alignment.features.tracks import Track, tracks_of
+from yellowiron.alignment.features.wheels import spare_wheels
 from yellowiron.alignment.files.decisions import decided
 from yellowiron.alignment.files.heard import heard_of_whole, unlikely
 from yellowiron.alignment.fusion.reading import AS_GOOD, fused
 from yellowiron.alignment.labelling.bystanders import among_strangers, doubted
 from yellowiron.alignment.labelling.coupler import with_couplers
 from yellowiron.alignment.labelling.fittings import fittings_of, sitting
-from yellowiron.alignment.labelling.place import pin_role
+from yellowiron.alignment.labelling.place import pin_role, standing_wheels
 from yellowiron.alignment.labelling.propagation import Propagation
 from yellowiron.alignment.labelling.rams import with_rams
 from yellowiron.alignment.labelling.result import Labels, to_alignment
@@ -126,6 +127,8 @@ def align(
     fittings = fittings_of(machine) - edited.keys()
     machine = _without(machine, fittings)
     plain = without_tracks(template)
+    spare = {part: tyre for part, tyre in _spare(machine, plain).items() if part not in edited}
+    machine = _without(machine, spare)
     up = _upright(tracks)
     rows = tuple(solids_of(tracking)[i] for i in tracked)
 
@@ -181,6 +184,7 @@ def align(
     if fittings:
         solids = solids_of(tracking)
         by_id |= sitting(by_id, fittings, solids, touch_of(tracking, answer.contact * observation.size))
+    by_id |= standing_wheels(by_id, spare, answer.template, set(answer.solution.body_of.values()))
     by_id |= {copy: by_id[first] for copy, first in copies.items() if first in by_id}
     apart |= {copy: apart[first] for copy, first in copies.items() if first in apart}
     found = to_alignment(
@@ -217,7 +221,7 @@ def align(
         against = unlikely(said, called, found, every, len(observation.cylinders)) if edits.machine else ()
         found = replace(found, findings=(*found.findings, *against))
     drawn_axles = as_drawn(whole, {p.body for p in found.parts if p.body is not None})
-    return _with_all_axes(found, _without(assembly, fittings), drawn_axles, answer, observation, frame)
+    return _with_all_axes(found, _without(assembly, {*fittings, *spare}), drawn_axles, answer, observation, frame)
 
 
 def _with_all_axes(
@@ -436,6 +440,13 @@ def _axes(answer: Answer, observation: Observation) -> dict[str, tuple[Vector, V
 def _carried(answer: Answer, joint: str) -> str | None:
     """The second body of a joint."""
     return answer.template.bodies_of(answer.template.joint(joint))[1]
+
+
+def _spare(assembly: Assembly, template: Template) -> dict[str, str]:
+    """Part of a wheel that the type does not have → the tyre of the wheel that it stands behind (ids)."""
+    solids = solids_of(assembly)
+    found = spare_wheels(solids, template, CONTACT[-1] * size_of(solids)) if solids else []
+    return {solids[i].part.id: solids[tyre].part.id for members, tyre in found for i in sorted(members)}
 
 
 def _upright(tracks: list[Track]) -> Floats | None:

@@ -47,7 +47,8 @@ from others, and has so many corners (a dodecagon is 0.966, an octagon 0.92)."""
 ASIDE, BESIDE = 0.02, 1.6
 """Twin tyres are this near to one axis, in radii, and this near to each other, in widths between their middles."""
 
-
+BOGIE, IN_LINE = (1.8, 3.2), 0.5
+"""The axles of a bogie are so many radii apart, its wheels so many widths out of line at most."""
 DRUM = (1.5, 6.0)
 """A drum is so many of its radii wide, at least and at most, …"""
 LIKE = 0.5
@@ -60,6 +61,50 @@ def rolling_of(solids: tuple[Solid, ...], template: Template, taken: set[int], t
     drums = drums_of(solids, sum(r.drum for r in rolling), taken, tolerance)
     inside = taken.union(*(d.members for d in drums))
     return [*drums, *wheels_of(solids, sum(not r.drum for r in rolling), inside, tolerance)]
+
+
+def spare_wheels(solids: tuple[Solid, ...], template: Template, tolerance: float) -> list[tuple[frozenset[int], int]]:
+    """Wheels of an axle that a type does not have, close behind one that it has (a bogie's): the solids of each, and
+    the tyre of the wheel that it stands behind. None where that does not leave as many wheels as the type has."""
+    count = sum(r.kind == "wheel" and r.rigid and not r.drum for r in template.roles)
+    equal = _equal_rings(solids, set()) if count else []
+    if len(equal) <= count or len(equal := _twin_tyres(equal)) <= count:
+        return []
+    middle = np.mean([w.center for w in equal], axis=0)
+    kept: list[Wheel] = []
+    spare: list[tuple[Wheel, int]] = []
+    # A bogie's wheel nearer to the middle of the machine stays: its axle is the one that carries the more.
+    for wheel in sorted(equal, key=lambda w: (round(float(np.linalg.norm(w.center - middle)), 4), w.tyre)):
+        beside = next((w for w in kept if _of_one_bogie(w, wheel)), None)
+        if beside is None:
+            kept.append(wheel)
+        else:
+            spare.append((wheel, beside.tyre))
+    if len(kept) > count:
+        return []
+    return [(_all_within(_with_all_about(w, solids, set(), tolerance), solids), tyre) for w, tyre in spare]
+
+
+def _all_within(wheel: Wheel, solids: tuple[Solid, ...]) -> frozenset[int]:
+    """A wheel's solids and all that is wholly inside its outline: bolts, hubs, brakes."""
+
+    def inside(s: Solid) -> bool:
+        low, high = s.span(wheel.center, wheel.direction)
+        if max(high, -low) > WIDER * 0.5 * wheel.width:
+            return False
+        delta = s.points - wheel.center
+        across = delta - np.outer(delta @ wheel.direction, wheel.direction)
+        return float(np.linalg.norm(across, axis=1).max()) < 1.01 * wheel.radius
+
+    return wheel.members | {s.index for s in solids if inside(s)}
+
+
+def _of_one_bogie(one: Wheel, other: Wheel) -> bool:
+    """Whether two wheels roll one close behind the other."""
+    along = float((other.center - one.center) @ one.direction)
+    apart = float(np.linalg.norm(other.center - one.center - along * one.direction)) / one.radius
+    level = abs(float(one.direction @ other.direction)) > SAME_DIRECTION
+    return level and abs(along) < IN_LINE * one.width and BOGIE[0] < apart < BOGIE[1]
 
 
 def drums_of(solids: tuple[Solid, ...], count: int, taken: set[int], tolerance: float) -> list[Wheel]:
@@ -86,6 +131,14 @@ def wheels_of(solids: tuple[Solid, ...], count: int, taken: set[int], tolerance:
     """
     if count == 0:
         return []
+    equal = _equal_rings(solids, taken)
+    if len(equal) > count:
+        equal = _twin_tyres(equal)
+    return [_with_all_about(w, solids, taken, tolerance) for w in equal[:count]] if len(equal) >= 2 else []
+
+
+def _equal_rings(solids: tuple[Solid, ...], taken: set[int]) -> list[Wheel]:
+    """The rings that are at least half as large as the largest and have an equal one, largest first."""
     least = LEAST * size_of(solids)
     rings = [ring for s in solids if s.index not in taken and (ring := _ring(s, least)) is not None]
     rings.sort(key=lambda w: (-round(w.radius, 5), w.tyre))
@@ -96,10 +149,7 @@ def wheels_of(solids: tuple[Solid, ...], count: int, taken: set[int], tolerance:
         if found and ring.radius < 0.45 * found[0].radius:
             break
         found.append(ring)
-    equal = [w for w in found if any(v is not w and _alike(v, w) for v in found)]
-    if len(equal) > count:
-        equal = _twin_tyres(equal)
-    return [_with_all_about(w, solids, taken, tolerance) for w in equal[:count]] if len(equal) >= 2 else []
+    return [w for w in found if any(v is not w and _alike(v, w) for v in found)]
 
 
 def _ring(solid: Solid, least: float) -> Wheel | None:

@@ -154,7 +154,7 @@ class Annealing:
         labels, scores = self.labels, scores_of(self.field, self.labels)
         for _ in range(min(MOVES, max(2, labels.shape[1] // 2))):
             for other in (self._swapped(labels, rng), self._mirrored(labels, rng)):
-                changed = scores_of(self.field, other)
+                changed = scores if other is labels else scores_of(self.field, other)
                 gain = changed - scores
                 with np.errstate(divide="ignore"):
                     chance = np.log(rng.random(len(gain))) * temperature

@@ -65,9 +65,12 @@ def sitting(
         placed |= grown
         waiting = [i for i in waiting if i not in grown]
     hosts = sorted(placed)
+    low = np.array([solids[j].low for j in hosts])
+    high = np.array([solids[j].high for j in hosts])
     for i in waiting if hosts else ():
-        gaps = [_gap(solids[i], solids[j]) for j in hosts]
-        nearest = placed[hosts[int(np.argmin(gaps))]]
+        # Between boxes, of all hosts at once: thousands of loose bolts stand among thousands of parts.
+        gaps = np.maximum(0.0, np.maximum(solids[i].low - high, low - solids[i].high))
+        nearest = placed[hosts[int(np.argmin((gaps * gaps).sum(axis=1)))]]
         words = f"a fitting that touches nothing; nearest is {nearest.body}"
         placed[i] = Place(nearest.body, nearest.body, DOUBTFUL, words, how="near")
     for s in solids:
@@ -96,8 +99,3 @@ def _on(i: int, placed: Mapping[int, Place], touch: Touch) -> Place | None:
 
 def _as(host: Place, confidence: float) -> Place:
     return Place(host.body, host.body, confidence, f"a fitting on {host.body}", how="touch")
-
-
-def _gap(a: Solid, b: Solid) -> float:
-    """Metres between two boxes."""
-    return float(np.linalg.norm(np.maximum(0.0, np.maximum(a.low - b.high, b.low - a.high))))
