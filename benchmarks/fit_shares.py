@@ -16,8 +16,8 @@ ROOT = Path(__file__).resolve().parent.parent
 sys.path[:0] = [str(ROOT / "src")]
 
 from yellowiron.library import load_template  # noqa: E402
-from yellowiron.mechanism.bodies.usual_shares import without_side  # noqa: E402
 from yellowiron.model.mechanism import Mechanism  # noqa: E402
+from yellowiron.model.template import without_side  # noqa: E402
 from yellowiron.usd import read_mechanism  # noqa: E402
 
 

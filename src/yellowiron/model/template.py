@@ -390,6 +390,11 @@ class Template:
         )
 
 
+def without_side(name: str) -> str:
+    """A body's name without its side: `front_wheel` for `front_wheel_l`."""
+    return name.removesuffix("_l").removesuffix("_r")
+
+
 def holds(when: Choices, chosen: Mapping[str, str]) -> bool:
     """Whether the choices made are among those that a `when` names."""
     return all(chosen.get(name) in allowed for name, allowed in when.items())

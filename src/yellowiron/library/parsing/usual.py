@@ -8,7 +8,7 @@ from collections.abc import Mapping
 
 from yellowiron.library.notation.validated_json import Document, near
 from yellowiron.model.errors import TemplateError
-from yellowiron.model.template import ActuatorTemplate, Role, Usual, UsualHinge
+from yellowiron.model.template import ActuatorTemplate, Role, Usual, UsualHinge, without_side
 
 _ROUNDED = 0.01
 """The shares of a whole machine are rounded one by one."""
@@ -53,7 +53,7 @@ def read_hinges(document: Document, actuators: tuple[ActuatorTemplate, ...]) -> 
 def read_shares(document: Document, roles: tuple[Role, ...]) -> Mapping[str, float]:
     """Body → its usual share of the machine's weight, 0 to 1. `TemplateError` for a name that is no body's, of either
     side, or shares of more than the whole."""
-    known = {name for role in roles for name in (role.name, role.name.removesuffix("_l").removesuffix("_r"))}
+    known = {name for role in roles for name in (role.name, without_side(role.name))}
     for name in document.data:
         if name not in known:
             raise TemplateError(

@@ -11,7 +11,7 @@ from collections.abc import Mapping
 
 from yellowiron.mechanism.placement import Placement
 from yellowiron.model.finding import Finding
-from yellowiron.model.template import Template
+from yellowiron.model.template import Template, without_side
 from yellowiron.support.text import display
 
 WITHIN = 2.0
@@ -47,11 +47,6 @@ def shares_of(template: Template, placement: Placement) -> dict[str, float]:
         others = [b for b, k in halves.items() if k == kind and b not in found and placement.has_body(b)]
         found |= dict.fromkeys(others if own else [], sum(own) / max(1, len(own)))
     return found
-
-
-def without_side(name: str) -> str:
-    """A body's name without its side: `front_wheel` for `front_wheel_l`."""
-    return name.removesuffix("_l").removesuffix("_r")
 
 
 def within_usual(
