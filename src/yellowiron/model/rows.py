@@ -109,7 +109,8 @@ def as_drawn(template: Template, present: Collection[str]) -> Template:
 def _with_hitches_in_one(template: Template, present: Collection[str]) -> Template:
     """A hitch that is not drawn between two frames that are, on each of which it turns, is one with the second: the
     machine bends as it is steered, and does not roll. It keeps the hinge to the frame above it."""
-    hinges = [(j, template.bodies_of(j)) for j in template.joints if j.type == "revolute" and names_known(j, template)]
+    known = [j for j in template.joints if j.type == "revolute" and names_known(j, template)]
+    hinges = [(j, pair) for j in known if len({*(pair := template.bodies_of(j))}) == 2]
     for role in [r for r in template.roles if r.rigid and r.name not in present and r.parent is not None]:
         above = template.body_of(str(role.parent))
         own = [(j, next(b for b in pair if b != role.name)) for j, pair in hinges if role.name in pair]
