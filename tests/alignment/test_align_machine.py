@@ -91,8 +91,10 @@ def test_up_is_obeyed_where_both_say_the_same_line() -> None:
 @pytest.mark.slow
 def test_one_word_turns_a_truck_that_was_found_back_to_front() -> None:
     """No name, no pin and no hole: nothing tells one end from the other."""
-    place = placed(8, "upright")
-    drawn, surface = read(spoiled("rigid_truck", 8, "visual"), 8, place, None)
+    # About one in ten of these is; the eighth, which stood here, is not any more.
+    seed = 75
+    place = placed(seed, "upright")
+    drawn, surface = read(spoiled("rigid_truck", seed, "visual"), seed, place, None)
     type_ = load_template("rigid_dump_truck")
 
     def wrong(found: Alignment) -> int:
