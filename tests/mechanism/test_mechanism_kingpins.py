@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import math
 from collections.abc import Callable
+from dataclasses import replace
 
 import numpy as np
 import pytest
@@ -11,9 +12,12 @@ from partly_drawn import without
 
 from kit.machines.backhoes import backhoe
 from kit.machines.lift_trucks import lift_truck
+from kit.machines.rollers import roller
 from kit.machines.synthetic import Machine
 from yellowiron.kinematics import ClosedChain
+from yellowiron.library import load_template
 from yellowiron.model.mechanism import independent_joints
+from yellowiron.model.template import Template
 
 LINKAGE = ("tie_rod", "steering")
 AXLE = ("axle", "knuckle", *LINKAGE)
@@ -102,3 +106,26 @@ def test_what_is_drawn_whole_is_steered_by_its_cylinder() -> None:
     built = without(lift_truck(3, "simplex"), "forklift", ())
     assert "MEC038" not in {f.code for f in built.findings}
     assert next(a for a in built.actuators if a.name == "steering").cylinders
+
+
+def test_a_document_s_limit_of_a_kingpin_holds(monkeypatch: pytest.MonkeyPatch) -> None:
+    """The finding asks for it, and it was dropped."""
+    import partly_drawn
+
+    def limited(kind: str) -> Template:
+        template = load_template(kind)
+        joints = tuple(
+            replace(j, lower=-0.5, upper=0.6, max_force=7e4) if j.name == "steer_axle2knuckle_l_joint" else j
+            for j in template.joints
+        )
+        return replace(template, joints=joints)
+
+    monkeypatch.setattr(partly_drawn, "load_template", limited)
+    joint = without(lift_truck(3, "simplex"), "forklift", AXLE).joint("steer_axle2knuckle_l_joint")
+    assert (joint.lower, joint.upper) == pytest.approx((-0.5, 0.6))
+    assert joint.drive is not None and joint.drive.max_force == 7e4
+
+
+def test_a_drum_in_a_frame_that_is_not_drawn_has_no_kingpin() -> None:
+    built = without(roller(4, tandem=False), "roller", ("front_frame", "hitch", "steering", "articulation_pin"))
+    assert "MEC038" not in {f.code for f in built.findings}

@@ -38,7 +38,7 @@ def with_knuckles(
     for name, knuckle in knuckles.items():
         wheel = by_name[knuckle.wheel]
         ball = _ball(knuckle, wheel)
-        by_name[knuckle.wheel] = lighter(wheel, [ball], findings, what="hidden knuckle")
+        by_name[knuckle.wheel] = lighter(wheel, [ball], findings, what="hidden knuckles")
         by_name[name] = ball
     return tuple(by_name.values())
 

@@ -326,7 +326,7 @@ def _held(
 ) -> dict[str, Factor]:
     """The factors of a machine that volume and density say little of: no body far from its usual share of the
     weight, but those of published weight. MEC039 says which that changed."""
-    masses = {body: weights[body] * factors[body].value for body in weights}
+    masses = {body: weight * factors[body].value for body, weight in weights.items() if weight > 0.0}
     kept = {body: masses[body] for body in published if body in masses}
     held = within_usual(masses, shares_of(template, placement), kept)
     told = shares_finding(masses, held, template.equipment_type.replace("_", " ") + "s")
@@ -335,7 +335,7 @@ def _held(
     findings.append(told)
     return {
         body: factor
-        if body in kept or not weights[body] > 0.0
+        if body in kept or body not in masses
         else Factor(held[body] / weights[body], f"{factor.source}; held to within {WITHIN:g} times its usual share")
         for body, factor in factors.items()
     }

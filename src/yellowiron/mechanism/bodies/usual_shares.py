@@ -53,7 +53,7 @@ def within_usual(
     masses: Mapping[str, float], usual: Mapping[str, float], kept: Mapping[str, float]
 ) -> dict[str, float]:
     """Masses (kg) of the same sum, in their proportions where that leaves a body within `WITHIN` of its `usual` share
-    of the sum; bodies of `kept` weigh that. A body of no mass has the least it may have."""
+    of the sum; bodies of `kept` weigh that."""
     total = sum(masses.values())
     free = [body for body in masses if body not in kept]
     left = total - sum(kept.values())

@@ -61,9 +61,9 @@ def with_kingpins(
         carrier = next(b for b in rolling.bodies if b != one.wheel)
         leader = next((hinge for hinge, actuator in direct.items() if actuator == one.actuator), None)
         follows = Follows(leader, kind="rod") if leader is not None else None
-        hinge = JointTemplate(
-            one.hinge, "revolute", (carrier, one.knuckle), drive=None if follows else "angular", follows=follows
-        )
+        # What a user's document says of it holds.
+        stated = next((j for j in whole.joints if j.name == one.hinge), JointTemplate(one.hinge, "revolute", ("", "")))
+        hinge = replace(stated, parts=(carrier, one.knuckle), drive=None if follows else "angular", follows=follows)
         axis = UP if rolling.anchor[0] >= middle else -UP
         source = {"template": one.hinge, "method": "upright through the wheel's middle: no knuckle is drawn"}
         roles = [replace(r, rigid=True, optional=False) if r.name == one.knuckle else r for r in roles]
@@ -108,6 +108,8 @@ def _steered(
         knuckle = next((b for b in ends[joint.name] if b != wheel), "")
         frame = frames.get(joint.name)
         if wheel is None or frame is None or placement.has_body(knuckle) or carried.get(knuckle) != {wheel}:
+            continue
+        if not whole.role(knuckle).side:  # a frame with one drum
             continue
         carrier = next(b for b in frame.bodies if b != wheel)
         if carrier == knuckle or drawn.body_of(knuckle) != carrier:

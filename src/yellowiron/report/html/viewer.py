@@ -187,7 +187,7 @@ def _joint(joint: Joint, tables: PoseTables) -> dict[str, Any]:
 
 
 def _sliders(mechanism: Mechanism, tables: PoseTables) -> list[dict[str, Any]]:
-    """One for each actuator, but of cylinders on loops only of those that have a table; for each free joint besides."""
+    """One for each actuator, but on loops only for those that have a table; and one for each free joint besides."""
     return [*_actuator_sliders(mechanism, tables), *_free_sliders(mechanism, tables)]
 
 

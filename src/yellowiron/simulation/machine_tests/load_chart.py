@@ -71,7 +71,8 @@ def chart_stability(usd_path: str | Path, chart: Iterable[ChartLoad]) -> tuple[C
 
 
 def chart_tests(usd_path: str | Path, chart: Iterable[ChartLoad]) -> tuple[MachineTest, ...]:
-    """For `run_tests`: each load of the chart is hauled in by the winch at its radius, on the ground."""
+    """For `run_tests`: each load of the chart is hauled in by the winch at its radius, on the ground.
+    `YellowironError` for a machine whose rated load is not known, or that is no crane."""
     mechanism = attached(usd.read_mechanism(usd_path))
     rated = rated_payload(mechanism).mass
     if rated <= 0.0:
