@@ -121,7 +121,7 @@ def test_an_error_is_one_document_where_json_is_asked_for(words: tuple[str, ...]
 
 
 def test_steps_are_plain_lines_in_a_pipe(monkeypatch: pytest.MonkeyPatch, tmp_path: Path) -> None:
-    def check(file: Path) -> tuple[()]:
+    def check(file: Path, *, machine: Path | None = None) -> tuple[()]:
         return ()
 
     monkeypatch.setattr("yellowiron.api.check", check)

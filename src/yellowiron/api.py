@@ -156,9 +156,17 @@ def align(
     return Roles(replace(alignment, findings=findings), template, assembly)
 
 
-def check(file: Path | str) -> tuple[Finding, ...]:
-    """The findings of every rule, and of OpenUSD's own validators, on any UsdPhysics file, ours or not."""
-    return tuple(checks.check(Path(file)))
+def check(file: Path | str, *, machine: Machine | Mechanism | Path | str | None = None) -> tuple[Finding, ...]:
+    """The findings of every rule, and of OpenUSD's own validators, on any UsdPhysics file, ours or not; on a URDF,
+    SDFormat or MJCF file those on links and joints. With the `machine` from which such a file was exported, its bodies,
+    joints, limits and masses are held against it over the full strokes."""
+    if machine is None:
+        return tuple(checks.check(Path(file)))
+    from yellowiron import kinematics, usd
+
+    mechanism = machine if isinstance(machine, Mechanism) else usd.read_mechanism(_file(machine))
+    poses = [checks.Posed(strokes, bodies) for strokes, bodies in kinematics.stroke_poses(mechanism)]
+    return tuple(checks.check_against(Path(file), mechanism, poses))
 
 
 def measure(machine: Machine | Mechanism | Path | str) -> tuple[Measurement, ...]:

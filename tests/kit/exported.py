@@ -10,8 +10,6 @@ from xml.etree import ElementTree as ET
 import numpy as np
 from scipy.spatial.transform import Rotation
 
-from yellowiron.kinematics import ClosedChain, State
-
 
 @dataclass(frozen=True, eq=False)
 class ReadJoint:
@@ -92,12 +90,12 @@ def urdf_poses(joints: list[ReadJoint], positions: Mapping[str, float]) -> dict[
     return poses
 
 
-def off(chain: ClosedChain, state: State, poses: Mapping[str, np.ndarray], drawn: Mapping[str, np.ndarray]) -> float:
+def off(moved: Mapping[str, np.ndarray], poses: Mapping[str, np.ndarray], drawn: Mapping[str, np.ndarray]) -> float:
     """By how much (metres, over three points a metre from the link's frame, and the frame) the links are off where the
-    kinematics has their bodies."""
+    kinematics has `moved` their bodies (4, 4) from the drawn pose."""
     worst = 0.0
     points = np.column_stack([np.vstack([np.zeros(3), np.eye(3)]), np.ones(4)]).T
-    for body, moved in chain.pose(state).items():
+    for body, displaced in moved.items():
         if body in poses:
-            worst = max(worst, float(np.abs((poses[body] - moved @ drawn[body]) @ points).max()))
+            worst = max(worst, float(np.abs((poses[body] - displaced @ drawn[body]) @ points).max()))
     return worst

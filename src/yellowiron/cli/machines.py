@@ -58,13 +58,21 @@ def _report(folder: Path) -> dict[str, Any]:
 
 
 @command(app)
-def check(file: Annotated[Path, typer.Argument(metavar="FILE.usd", help="Any UsdPhysics file.")]) -> None:
-    """Check any UsdPhysics file, ours or not."""
+def check(
+    file: Annotated[Path, typer.Argument(metavar="FILE", help="Any UsdPhysics file; URDF, SDFormat, MJCF.")],
+    machine: Annotated[
+        Path | None,
+        typer.Option(
+            "--machine", metavar="FILE.usd", help="What it was exported from: held against it over its strokes."
+        ),
+    ] = None,
+) -> None:
+    """Check any UsdPhysics file, ours or not, or the joints of a URDF, SDFormat or MJCF file."""
     from yellowiron.report import finding_table
 
     with progress_shown() as progress:
         progress("Checking the file")
-        entries = [asdict(f) for f in yellowiron.check(file)]
+        entries = [asdict(f) for f in yellowiron.check(file, machine=machine)]
     sound = Text("Sound.", "bold green")
     answer({"findings": entries}, finding_table(entries) if entries else sound)
     raise typer.Exit(1 if any(e["severity"] == "error" for e in entries) else 0)

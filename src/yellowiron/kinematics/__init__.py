@@ -43,7 +43,7 @@ if TYPE_CHECKING:
     from yellowiron.kinematics.measuring.axis_placement import OpenAxis, PlacedAxes, place_axes
     from yellowiron.kinematics.measuring.calibration import calibrate
     from yellowiron.kinematics.measuring.measurement import key_poses, measure, measure_and_pose
-    from yellowiron.kinematics.poses import pose_tables
+    from yellowiron.kinematics.poses import pose_tables, stroke_poses
     from yellowiron.kinematics.solver.branches import branch_pivots, branch_sine
     from yellowiron.kinematics.solver.chain import ClosedChain, KinematicsError, State
     from yellowiron.kinematics.solver.floating import attached
@@ -75,6 +75,7 @@ __all__ = [
     "place_axes",
     "pose_tables",
     "started",
+    "stroke_poses",
     "unworkable",
     "weight",
 ]
@@ -105,6 +106,7 @@ __getattr__, __dir__ = lazy_names(
         "place_axes": "measuring.axis_placement",
         "pose_tables": "poses",
         "started": "start",
+        "stroke_poses": "poses",
         "unworkable": "workable",
         "weight": "strength",
     },

@@ -2,13 +2,14 @@
 
 from __future__ import annotations
 
-from collections.abc import Mapping
+import itertools
+from collections.abc import Iterator, Mapping
 
 import numpy as np
 
 from yellowiron.kinematics.measuring.bench import Bench
 from yellowiron.kinematics.measuring.quantities import Unmeasurable
-from yellowiron.kinematics.solver.chain import ClosedChain, Component, State
+from yellowiron.kinematics.solver.chain import ClosedChain, Component, KinematicsError, State
 from yellowiron.kinematics.solver.pose_grid import explore
 from yellowiron.model.geometry import Floats
 from yellowiron.model.mechanism import Joint, Mechanism
@@ -73,3 +74,37 @@ def _row(chain: ClosedChain, state: State, component: Component, joints: Mapping
         else:
             columns.append(chain.coordinate(state, name))
     return np.array(columns)
+
+
+def stroke_poses(
+    mechanism: Mechanism, *, steps: int = 3, most: int = 100
+) -> Iterator[tuple[Mapping[str, float], Mapping[str, Floats]]]:
+    """Poses over the full strokes, the drawn one first: the driven joints' coordinates (m or rad from the drawn pose),
+    and for each body its displacement (4, 4) from the drawn pose, in the machine frame.
+
+    A lattice of `steps` places from end to end of every stroke; where that is more than `most` poses, so many drawn of
+    it by a fixed seed, both ends of all among them. Joints without ends go on by a tenth of a radian or metre a pose.
+    What a linkage cannot do together is left out. Errors as in `ClosedChain`.
+    """
+    chain = ClosedChain(mechanism)
+    joints = {joint.name: joint for joint in mechanism.joints}
+    ends = {n: (joints[n].lower, joints[n].upper) for n in chain.independent}
+    axes = {n: np.linspace(low, high, steps) for n, (low, high) in ends.items() if low is not None and high is not None}
+    rows = itertools.product(*axes.values()) if steps ** len(axes) <= most else _drawn_of(list(axes.values()), most)
+    yield {}, chain.pose(chain.solve({}))
+    for number, row in enumerate(rows, 1):
+        strokes = dict.fromkeys(chain.independent, 0.1 * number) | dict(zip(axes, map(float, row), strict=True))
+        try:
+            state = chain.solve(strokes)
+        except KinematicsError:
+            continue
+        yield strokes, chain.pose(state)
+
+
+def _drawn_of(axes: list[Floats], count: int) -> Iterator[tuple[float, ...]]:
+    """Both ends of all, then places drawn by a fixed seed."""
+    chosen = np.random.default_rng(22)
+    yield tuple(float(axis[0]) for axis in axes)
+    yield tuple(float(axis[-1]) for axis in axes)
+    for _ in range(count - 2):
+        yield tuple(float(chosen.choice(axis)) for axis in axes)

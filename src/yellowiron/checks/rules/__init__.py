@@ -51,3 +51,13 @@ def rules_of(topics: Iterable[ModuleType]) -> tuple[Rule, ...]:
 
 
 RULES = tuple(sorted(rules_of(TOPICS), key=lambda rule: rule.code))
+
+_OF_STAGES = {"CHK067", "CHK098"}
+"""Not of URDF and its like: the zero of their joints, where they are read, is no pose that a machine stands in, and a
+slide may follow a pivot."""
+EXCHANGED = tuple(
+    rule
+    for rule in sorted(rules_of((mass, joints, frames, limits, drives, loops, followers)), key=lambda rule: rule.code)
+    if rule.code not in _OF_STAGES
+)
+"""The rules of files of which links and joints alone are read."""
