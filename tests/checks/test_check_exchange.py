@@ -43,7 +43,7 @@ def codes(path: Path) -> list[str]:
 
 
 def test_a_chain_is_placed_and_turned_as_its_origins_say(tmp_path: Path) -> None:
-    view = read_exchange(written(tmp_path, urdf(TWO)))
+    view, _ = read_exchange(written(tmp_path, urdf(TWO)))
     lift, reach = view.joints
     # A quarter turn about z each: the second origin lies along the first's y, and x has become −x.
     assert lift.axis == pytest.approx([0.0, 1.0, 0.0], abs=1e-12)
@@ -55,7 +55,7 @@ def test_a_chain_is_placed_and_turned_as_its_origins_say(tmp_path: Path) -> None
 def test_frames_are_no_bodies_and_a_root_without_mass_is_none(tmp_path: Path) -> None:
     links = '<link name="base_link"/><link name="camera"/>'
     mounts = pivot("root", "base_link", "frame", kind="fixed") + pivot("mount", "arm", "camera", kind="fixed")
-    view = read_exchange(written(tmp_path, urdf(TWO + mounts, links)))
+    view, _ = read_exchange(written(tmp_path, urdf(TWO + mounts, links)))
     assert set(view.bodies) == {"frame", "boom", "arm"}
     assert {j.name for j in view.joints} == {"lift", "reach"}
 
@@ -71,7 +71,7 @@ def test_three_pivots_in_a_point_are_a_ball(tmp_path: Path) -> None:
         f'<axis xyz="{a}"/></joint>'
         for n, p, c, a in (("roll", "one", "two", "0 1 0"), ("yaw", "two", "boom", "0 0 1"))
     )
-    view = read_exchange(written(tmp_path, urdf(ball + pivot("reach", "boom", "arm", LIMIT), links)))
+    view, _ = read_exchange(written(tmp_path, urdf(ball + pivot("reach", "boom", "arm", LIMIT), links)))
     assert [(j.name, j.type, j.bodies) for j in view.joints] == [
         ("eye", "spherical", ("frame", "boom")), ("reach", "revolute", ("boom", "arm"))
     ]  # fmt: skip
@@ -104,7 +104,7 @@ def test_a_table_of_cuts_beside_the_file_closes_its_loops(tmp_path: Path) -> Non
     cut = {"name": "pin", "type": "revolute", "parent": "frame", "child": "arm", "axis": [0, 1, 0],
            "in_parent": [0, 2, 0], "in_child": [0, 0, 0]}  # fmt: skip
     (tmp_path / "joints.json").write_text(json.dumps({"cuts": [cut]}), encoding="utf-8")
-    pin = read_exchange(file).joints[-1]
+    pin = read_exchange(file)[0].joints[-1]
     assert pin.cut and pin.bodies == ("frame", "arm")
     # The arm stands on (1, 1, 0): the pin's ends are a metre and more apart.
     assert np.linalg.norm(pin.sides[1].position - pin.sides[0].position) == pytest.approx(math.sqrt(2.0))
@@ -130,7 +130,7 @@ SDF = f"""<sdf version="1.11"><model name="a">
 
 
 def test_an_sdf_model_is_placed_by_its_frames(tmp_path: Path) -> None:
-    view = read_exchange(written(tmp_path, SDF, "a.sdf"))
+    view, _ = read_exchange(written(tmp_path, SDF, "a.sdf"))
     lift, out, eye = view.joints
     assert lift.sides[0].position == pytest.approx([0.0, 2.0, 1.0]) and lift.axis == pytest.approx([0.0, 0.0, 1.0])
     assert out.sides[0].position == pytest.approx([0.0, 3.0, 1.0]) and out.axis == pytest.approx([0.0, 1.0, 0.0])
@@ -153,7 +153,7 @@ MJCF = f"""<mujoco model="a"><compiler angle="radian" autolimits="true"/><defaul
 
 
 def test_an_mjcf_model_is_read_as_mujoco_has_it(tmp_path: Path) -> None:
-    view = read_exchange(written(tmp_path, MJCF, "a.xml"))
+    view, _ = read_exchange(written(tmp_path, MJCF, "a.xml"))
     joints = {j.name: j for j in view.joints}
     assert set(joints) == {"lift", "eye", "out", "pin"} and view.bodies["boom"].mass == pytest.approx(50.0)
     assert joints["lift"].sides[0].position == pytest.approx([1.0, 0.0, 1.0])
@@ -162,6 +162,17 @@ def test_an_mjcf_model_is_read_as_mujoco_has_it(tmp_path: Path) -> None:
     assert codes(tmp_path / "a.xml") == []
     open_loop = MJCF.replace(PIN, "").replace('<position joint="out" kp="1e5"/>', '<motor joint="lift"/>')
     assert "CHK093" in codes(written(tmp_path, open_loop, "b.xml"))
+
+
+def test_drives_that_are_unstable_at_the_files_step_are_told(tmp_path: Path) -> None:
+    # A slide of 50 kg on a barrel of 50: its spring k is stable to steps of less than 2·√(m/k), 45 ms.
+    spring = MJCF.replace(PIN, "").replace('kp="1e5"', 'kp="1e5" kv="1000"')
+    for step, told in ((0.001, set()), (0.02, {"MJC002"}), (0.2, {"MJC001"})):
+        text = spring.replace("<default>", f'<option timestep="{step}"/><default>')
+        path = written(tmp_path, text, f"{step}.xml")
+        assert {code for code in codes(path) if code.startswith("MJC")} == told, step
+    (found,) = [f for f in check(tmp_path / "0.02.xml") if f.code == "MJC002"]
+    assert "times its own" in found.message
 
 
 @pytest.mark.parametrize(

@@ -26,7 +26,7 @@ def check(path: str | Path) -> tuple[Finding, ...]:
     `YellowironError` where there is no such file, or it is none of these. References that lead nowhere are findings.
     """
     file = Path(path)
-    return _sorted(_of_exchange(read_exchange(file)) if is_exchange(file) else _of_stage(file))
+    return _sorted(_of_exchange(*read_exchange(file)) if is_exchange(file) else _of_stage(file))
 
 
 def check_against(path: str | Path, mechanism: Mechanism, poses: Sequence[Posed]) -> tuple[Finding, ...]:
@@ -38,16 +38,17 @@ def check_against(path: str | Path, mechanism: Mechanism, poses: Sequence[Posed]
             "What is held against a machine is a file that was exported from it", where=str(file),
             hint="Give a URDF, SDFormat or MJCF file; USD files need no --machine.",
         )  # fmt: skip
-    view = with_loose(read_exchange(file), {joint.name for joint in mechanism.joints if joint.free})
-    return _sorted((*_of_exchange(view), *compare(view, mechanism, poses)))
+    view, own = read_exchange(file)
+    view = with_loose(view, {joint.name for joint in mechanism.joints if joint.free})
+    return _sorted((*_of_exchange(view, own), *compare(view, mechanism, poses)))
 
 
 def _sorted(found: Iterable[Finding]) -> tuple[Finding, ...]:
     return tuple(sorted(found, key=lambda f: (_ORDER[f.severity], f.code)))
 
 
-def _of_exchange(view: View) -> list[Finding]:
-    return [finding for rule in rules.EXCHANGED for finding in rule(view)]
+def _of_exchange(view: View, own: tuple[Finding, ...]) -> list[Finding]:
+    return [*(finding for rule in rules.EXCHANGED for finding in rule(view)), *own]
 
 
 def _of_stage(file: Path) -> list[Finding]:

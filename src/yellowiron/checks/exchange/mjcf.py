@@ -13,17 +13,23 @@ from yellowiron.model.errors import YellowironError
 from yellowiron.model.geometry import Floats
 
 
-def read_mjcf(path: Path) -> View:
-    """The bodies and joints of a `mujoco` document. `YellowironError` where MuJoCo does not take it."""
+def compiled(path: Path) -> Any:
+    """The `MjModel` of a file. `YellowironError` where MuJoCo does not take it."""
     import mujoco
 
     try:
-        model: Any = mujoco.MjModel.from_xml_path(str(path))
+        return mujoco.MjModel.from_xml_path(str(path))
     except ValueError as error:
         words = " ".join(str(error).split())[:200]
         raise YellowironError(
             f"MuJoCo does not take the file: {words}", where=str(path), hint="Correct the file, or write it again."
         ) from error
+
+
+def read_mjcf(path: Path, model: Any) -> View:
+    """The bodies and joints of a file that was `compiled`."""
+    import mujoco
+
     data: Any = mujoco.MjData(model)
     mujoco.mj_kinematics(model, data)
     mujoco.mj_comPos(model, data)
