@@ -16,7 +16,14 @@ from yellowiron.model.specification import Specifications
 from yellowiron.model.template import choose
 
 
-def without(machine: Machine, kind: str, words: Sequence[str], *, upright: Sequence[str] = ()) -> Mechanism:
+def without(
+    machine: Machine,
+    kind: str,
+    words: Sequence[str],
+    *,
+    upright: Sequence[str] = (),
+    sheet: Specifications | None = None,
+) -> Mechanism:
     """The machine as its parts truly move, those of bodies with such a word in their names left out; `upright` slides
     go straight up."""
     template = choose(load_template(kind), {})
@@ -28,5 +35,5 @@ def without(machine: Machine, kind: str, words: Sequence[str], *, upright: Seque
     alignment = Alignment(
         kind, np.eye(4), tuple(parts), axes=dict.fromkeys(upright, ((0.0, 0.0, 0.0), (0.0, 0.0, 1.0)))
     )
-    built = build_mechanism(machine.assembly(), template, alignment, Specifications(), name="truck")
+    built = build_mechanism(machine.assembly(), template, alignment, sheet or Specifications(), name="truck")
     return kinematics.complete(built)

@@ -25,7 +25,7 @@ from yellowiron.library.parsing.machine_tests import read_tests
 from yellowiron.library.parsing.materials import read_material
 from yellowiron.library.parsing.measurements import read_measurements
 from yellowiron.library.parsing.sensors import read_sensors
-from yellowiron.library.parsing.usual import read_hinges, read_shares, read_usual
+from yellowiron.library.parsing.usual import read_balance, read_hinges, read_shares, read_usual
 from yellowiron.library.parsing.variants import check_choices, read_variants
 from yellowiron.library.parsing.wanted import read_wanted
 from yellowiron.library.parsing.words import read_words
@@ -191,6 +191,8 @@ def _further(documents: Mapping[str, Document], template: Template) -> dict[str,
         found["hinges"] = read_hinges(documents["hinges"], found.get("actuators", template.actuators))
     if "shares" in documents:
         found["shares"] = read_shares(documents["shares"], template.roles)
+    if "balance" in documents:
+        found["balance"] = read_balance(documents["balance"], template.roles, found.get("wanted", template.wanted))
     return found
 
 

@@ -28,6 +28,7 @@ DOCUMENTS = (
     "usual",
     "hinges",
     "shares",
+    "balance",
 )
 """The documents a template folder can have, each `<name>.json`; only `joints` is needed, and not even that
 where `modules` bring joints."""

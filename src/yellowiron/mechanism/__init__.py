@@ -55,6 +55,8 @@ MEC038  knuckles of steered wheels are not drawn: the wheels are steered about u
 MEC039  bodies were held to the usual shares of the weight, which geometry cannot say
 MEC040  a site's place was not found
 MEC041  no plane meets the edge of an edge site; its x axis points from the hinge to the edge
+MEC042  a body's centre of mass was placed by what the front axle carries: by the sheet (info), or as is usual (warning)
+MEC043  what the front axle carries cannot be met with a centre of mass inside the body
 MEC050  a limit names a specification that is not known; the joint is not limited there
 MEC070  hidden wheels stand for a row of which no part is there; they are left out
 MEC071  hidden wheels would weigh more than the body that carries the track; it keeps its mass besides

@@ -292,6 +292,20 @@ class UsualHinge:
 
 
 @dataclass(frozen=True)
+class Balance:
+    """What the front axle carries of the unladen machine: bodies of the `front` and the `rear` that stand on the ground
+    (without their side), the `specification` that gives the load, the least and greatest `usual` share (0 to 1, None:
+    unknown) with their `source`, and the `body` whose centre of mass is placed by it."""
+
+    body: str
+    front: tuple[str, ...]
+    rear: tuple[str, ...]
+    specification: str
+    usual: tuple[float, float] | None = None
+    source: str = ""
+
+
+@dataclass(frozen=True)
 class Template:
     """A template with all its documents. `root` is the body that stands for the machine's base; `words`: words of role
     names (`rear frame`) → language → what parts of it are called; `usual`: body → where it usually is; `hinges`:
@@ -316,6 +330,7 @@ class Template:
     usual: Mapping[str, Usual] = field(default_factory=dict)
     hinges: Mapping[str, UsualHinge] = field(default_factory=dict)
     shares: Mapping[str, float] = field(default_factory=dict)
+    balance: Balance | None = None
 
     @property
     def sheet_only(self) -> bool:

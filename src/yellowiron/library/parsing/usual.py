@@ -1,5 +1,6 @@
 """Where the bodies of a type usually are, and how large they are: `usual.json`; how its hinges usually move where their
-cylinders are not drawn: `hinges.json`; what share of the weight each body has: `shares.json`."""
+cylinders are not drawn: `hinges.json`; what share of the weight each body has: `shares.json`; what the front axle
+carries of it: `balance.json`."""
 
 from __future__ import annotations
 
@@ -8,7 +9,7 @@ from collections.abc import Mapping
 
 from yellowiron.library.notation.validated_json import Document, near
 from yellowiron.model.errors import TemplateError
-from yellowiron.model.template import ActuatorTemplate, Role, Usual, UsualHinge, without_side
+from yellowiron.model.template import ActuatorTemplate, Balance, Role, Usual, UsualHinge, Wanted, without_side
 
 _ROUNDED = 0.01
 """The shares of a whole machine are rounded one by one."""
@@ -65,3 +66,29 @@ def read_shares(document: Document, roles: tuple[Role, ...]) -> Mapping[str, flo
     if sum(shares.values()) > 1.0 + _ROUNDED:
         raise TemplateError("The shares are more than 100 %", where=str(document.path), hint="They are percents of it.")
     return shares
+
+
+def read_balance(document: Document, roles: tuple[Role, ...], wanted: tuple[Wanted, ...]) -> Balance:
+    """What the front axle carries. `TemplateError` for a name that is no body's, or no wanted value's."""
+    data, names = document.data, {name for role in roles for name in (role.name, without_side(role.name))}
+    asked = {w.name for w in wanted}
+    for key, given, known in (
+        ("body", [data["body"]], names),
+        ("front", data["front"], names),
+        ("rear", data["rear"], names),
+        ("specification", [data["specification"]], asked),
+    ):
+        for name in given:
+            if name not in known:
+                what = "wanted value" if known is asked else "body"
+                raise TemplateError(
+                    f"'{name}' is no {what} of the template",
+                    where=document.at(key),
+                    hint=near(name, known) or "See its documents.",
+                )
+    usual = data.get("usual")
+    if usual is not None and usual["least"] >= usual["most"]:
+        raise TemplateError("The least share is not less than the most", where=document.at("usual"), hint="Percent.")
+    share = None if usual is None else (usual["least"] / 100.0, usual["most"] / 100.0)
+    source = "" if usual is None else usual["source"]
+    return Balance(data["body"], tuple(data["front"]), tuple(data["rear"]), data["specification"], share, source)

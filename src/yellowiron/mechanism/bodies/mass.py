@@ -8,10 +8,11 @@ I = tr(Σ)·1 − Σ then always meets the triangle inequality.
 from __future__ import annotations
 
 from collections.abc import Container, Iterable, Mapping, Sequence
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 
 import numpy as np
 
+from yellowiron.mechanism.bodies.axle_loads import balance_of
 from yellowiron.mechanism.bodies.choice import Choice
 from yellowiron.mechanism.bodies.usual_shares import WITHIN, shares_finding, shares_of, within_usual
 from yellowiron.mechanism.bodies.usual_weight import usual_weight
@@ -169,8 +170,13 @@ def weigh(
     weights = {b: sum(moments[row].mass for row in placement.rows_of_body(b)) for b in bodies}
     factors = _factors(weights, published, total, findings)
     least, most = _PLAUSIBLE if _WHOLE in published else _NEAR
-    if total is not None and not least <= drawn / total.value <= most:
+    balance = balance_of(template, placement, specifications)
+    amiss = total is not None and not least <= drawn / total.value <= most
+    if amiss or (balance is not None and balance.far(*_bodies(moments, factors, placement))):
         factors = _held(factors, weights, published, template, placement, findings)
+    if balance is not None:
+        body, by = balance.forward_by(*_bodies(moments, factors, placement), findings)
+        moments = _moved(moments, placement.rows_of_body(body), by)
     return Masses(materials, moments, factors, used, choice)
 
 
@@ -339,6 +345,20 @@ def _held(
         else Factor(held[body] / weights[body], f"{factor.source}; held to within {WITHIN:g} times its usual share")
         for body, factor in factors.items()
     }
+
+
+def _bodies(
+    moments: Sequence[Moments], factors: Mapping[str, Factor], placement: Placement
+) -> tuple[dict[str, float], dict[str, Floats]]:
+    """What bodies weigh, kg, and their centres of mass (3,), machine frame."""
+    whole = {b: combine(moments[r] for r in placement.rows_of_body(b)).scaled(f.value) for b, f in factors.items()}
+    return {b: m.mass for b, m in whole.items()}, {b: m.center for b, m in whole.items()}
+
+
+def _moved(moments: Sequence[Moments], rows: Container[int], by: float) -> tuple[Moments, ...]:
+    """The parts, those of some rows so far forward, m."""
+    shift = np.array([by, 0.0, 0.0])
+    return tuple(replace(m, center=m.center + shift) if r in rows else m for r, m in enumerate(moments))
 
 
 def _hollowed(drawn: float, placement: Placement, hint: str, findings: list[Finding]) -> Known | None:
