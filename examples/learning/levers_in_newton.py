@@ -17,8 +17,8 @@ from pathlib import Path
 import newton
 import numpy as np
 import warp
-
 from many_worlds import held
+
 from yellowiron import read_mechanism
 from yellowiron.hydraulics import Circuit, Hydraulics
 
