@@ -16,7 +16,7 @@ if TYPE_CHECKING:
     from yellowiron.exporters.geometry import BodyGeometry, Geometry, read_geometry
     from yellowiron.exporters.link_table import LinkTable, links_of
     from yellowiron.exporters.mjcf.actuators import actuator_names
-    from yellowiron.exporters.mjcf.document import TIMESTEP, export_mjcf, integrator_of
+    from yellowiron.exporters.mjcf.document import TIMESTEP, export_mjcf
     from yellowiron.exporters.registry import EXPORTERS, Exporter, export, exporter_names, find_exporter, unsaid
     from yellowiron.exporters.ros.joint_states import JointStates
     from yellowiron.exporters.shapes import drawn_of, solids_of
@@ -35,7 +35,6 @@ __all__ = [
     "export_mjcf",
     "exporter_names",
     "find_exporter",
-    "integrator_of",
     "links_of",
     "read_geometry",
     "solids_of",
@@ -58,7 +57,6 @@ __getattr__, __dir__ = lazy_names(
         "export_mjcf": "mjcf.document",
         "exporter_names": "registry",
         "find_exporter": "registry",
-        "integrator_of": "mjcf.document",
         "links_of": "link_table",
         "read_geometry": "geometry",
         "solids_of": "shapes",

@@ -1,4 +1,9 @@
-"""What a build writes on the prims of a machine's file beside what USD has words for, by `usd.authoring.metadata`."""
+"""What several writers of a machine say alike: the record that a build leaves on the prims of its file, beside what USD
+has words for (`usd.authoring.metadata`), and how MuJoCo is to solve it, in MJCF and in a scene for Newton."""
+
+from __future__ import annotations
+
+from yellowiron.model.mechanism import Mechanism
 
 RECORD = "yellowiron"
 """The key of that record in a prim's `customData`."""
@@ -12,3 +17,20 @@ DETAIL, DETAILS = "Detail", ("full", "light", "visual")
 few and simple ones, or none."""
 COLLIDING = DETAILS[:2]
 """Those that have colliders."""
+
+CONE = "elliptic"
+IMPRATIO = 1000.0
+"""Friction is so many times as hard as what holds bodies apart, else what stands with its brakes set creeps downhill:
+loader and excavator on 20° by 2.0 and 3.7 mm/s in MuJoCo; so by 0.007 and 0.006, at the same cost."""
+INTEGRATOR = "Euler"
+"""Closes the loops a hundred times better than `implicitfast`: that one adds the drives' damping to the mass matrix for
+the step alone, after the constraint forces were found without it (wheel loader at rest: 0.0004 against 0.05 mm)."""
+FREE_INTEGRATOR = "implicitfast"
+"""… which machines without loops or couplings have: nothing is to be held closed, and hinges in a row, each driven for
+the mass it moves while the others stand, are unstable with `Euler` where that is many times the mass it moves alone."""
+
+
+def integrator_of(mechanism: Mechanism) -> str:
+    """MuJoCo's name of the integrator that suits a machine."""
+    held = any(joint.cut or joint.follows is not None for joint in mechanism.joints)
+    return INTEGRATOR if held else FREE_INTEGRATOR

@@ -17,7 +17,6 @@ import physx_usd_schemas  # noqa: F401  likewise
 import warp
 from pxr import Usd
 
-from yellowiron.exporters import integrator_of
 from yellowiron.model.errors import YellowironError
 from yellowiron.model.geometry import Floats
 from yellowiron.model.mechanism import chained
@@ -25,6 +24,7 @@ from yellowiron.simulation.engine import Readings, Setup
 from yellowiron.simulation.engines.coordinates import Coordinates, rotation_matrices
 from yellowiron.simulation.engines.world import World, compose
 from yellowiron.support import guard
+from yellowiron.support.record import CONE, IMPRATIO, integrator_of
 from yellowiron.usd.authoring.stage import Types, apply_schemas, over, set_attribute
 
 _FIELD = "NewtonSDFCollisionAPI"
@@ -67,7 +67,7 @@ class NewtonEngine:
             newton.solvers.SolverMuJoCo.register_custom_attributes(builder)
             found = builder.add_usd(_without_fields(Usd.Stage.Open(world.layer)), load_visual_shapes=False)
             self._model: Any = builder.finalize(device="cpu")
-            told = {"integrator": integrator_of(setup.mechanism).lower(), "cone": "elliptic"}
+            told = {"integrator": integrator_of(setup.mechanism).lower(), "cone": CONE, "impratio": IMPRATIO}
             self._solver: Any = newton.solvers.SolverMuJoCo(
                 self._model,
                 use_mujoco_cpu=True,
