@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from pxr import Gf, Sdf, Vt
 
-from yellowiron.support.record import CONE, DETAIL, DETAILS, IMPRATIO, integrator_of
+from yellowiron.support.record import CONE, DETAIL, DETAILS, IMPRATIO
 from yellowiron.usd.authoring.metadata import describe_machine, set_custom
 from yellowiron.usd.authoring.stage import (
     Names,
@@ -69,8 +69,8 @@ def write_scene_layer(layer: Sdf.Layer, plan: Plan, machine_file: str) -> None:
     add_reference(define(layer, f"/World/{names.give(plan.root_name)}"), f"./{machine_file}")
     scene = define(layer, "/World/physicsScene", "PhysicsScene")
     apply_schemas(scene, "PhysxSceneAPI", "NewtonSceneAPI", "MjcSceneAPI")
-    # Newton reads MuJoCo's settings off the scene alone.
-    set_attribute(scene, "mjc:option:integrator", Types.Token, integrator_of(plan.mechanism).lower(), uniform=True)
+    # Newton reads MuJoCo's settings off the scene alone. Not the integrator: drives are stable to steps of 3 ms with
+    # Euler's, and nobody knows here how long a user's are.
     set_attribute(scene, "mjc:option:cone", Types.Token, CONE, uniform=True)
     set_attribute(scene, "mjc:option:impratio", Types.Double, IMPRATIO, uniform=True)
     set_attribute(scene, "physxScene:solverType", Types.Token, "TGS", uniform=True)
