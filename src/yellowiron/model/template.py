@@ -231,9 +231,9 @@ class ActuatorTemplate:
 @dataclass(frozen=True)
 class SiteTemplate:
     """A named frame on a body. `rule` says where: {"joint": J} (its anchor), {"along": J} (there, upright along that
-    slide), {"pointing": J} (there, x along it), {"heel": 0.02} (of the foremost parts), {"edge_from": J, "spanning":
-    0.8} (the point of the body farthest from that joint's axis among parts spanning that share of the body's width
-    along the axis), {"point": [x, y, z]} (machine frame)."""
+    slide), {"pointing": J} (there, x along it), {"heel": 0.02} (of the foremost parts), {"floor_of": R} (of its parts),
+    {"edge_from": J, "spanning": 0.8} (the point of the body farthest from that joint's axis among parts spanning that
+    share of the body's width along the axis), {"point": [x, y, z]} (machine frame)."""
 
     name: str
     body: str
