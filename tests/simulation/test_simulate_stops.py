@@ -1,4 +1,4 @@
-"""Ends of stroke hold in every engine what is heavier than a cylinder's push."""
+"""Ends of stroke hold in every engine what is heavier than a cylinder's push; what stands is driven all at once."""
 
 from __future__ import annotations
 
@@ -10,7 +10,11 @@ from in_engines import EVERY, load
 from pxr import Usd
 
 from kit.machines import small_machine
+from yellowiron.kinematics import ClosedChain
+from yellowiron.simulation.commands import Phase
 from yellowiron.simulation.engine import Setup, tell
+from yellowiron.simulation.payload import with_payload
+from yellowiron.simulation.strokes.standing import falls_over
 from yellowiron.usd import read_mechanism
 from yellowiron.usd.layers.mujoco import STOP
 
@@ -57,3 +61,13 @@ def test_a_load_stops_at_the_end_of_a_stroke(file: Path, engine: str) -> None:
     finally:
         loaded.close()
     assert ended == pytest.approx(lower, abs=GIVES)
+
+
+def test_what_stands_is_driven_together(file: Path) -> None:
+    """Its empty bucket raised and lowered, the small loader stands throughout; with what tips it as drawn nobody
+    asks."""
+    mechanism = read_mechanism(file)
+    ends = {"slide": np.linspace(-0.1, 0.3, 50)}
+    for payload in (0.0, 1e5):
+        heavy = with_payload(mechanism, payload)
+        assert falls_over(heavy, ClosedChain(heavy), Phase("together", ends, ())) is None
