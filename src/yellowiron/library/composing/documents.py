@@ -21,8 +21,9 @@ def template_documents(folder: Path) -> dict[str, Document]:
     """A template's documents by kind, each whole and valid by its schema.
 
     What the folder's modules bring comes first, in the order of `modules.json` (of wanted values last, what the folder
-    does not ask for itself), and the folder's own document is put on top. A document that is `like` another type's is put on top of that one, less the entries whose names match a
-    pattern of `without`: objects key by key, lists of named entries one after the other, anything else instead; the
+    does not ask for itself), and the folder's own document is put on top. A document that is `like` another type's is
+    put on top of that one, less the entries whose names match a pattern of `without`: objects key by key, lists of
+    named entries one after the other, anything else instead; the
     group that has the other type's name has this one's. Where the folder has a `modules.json` of its own, it is put on
     top of what the other type adds to its modules. Entries stand in the order that the patterns of `order` say.
     `TemplateError` names file and key."""
