@@ -143,6 +143,7 @@ def fell_short(document: Mapping[str, Any]) -> list[str]:
         f"{f['code']} {engine}, {f['where']}: {f['message']}"
         for engine, run in document["simulation"].items()
         for f in run["findings"]
+        if f.get("severity") != "info"
     ]
     mobility = document["mobility"]
     if mobility is not None and mobility["computed"] != mobility["expected"]:
