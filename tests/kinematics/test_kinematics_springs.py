@@ -19,6 +19,8 @@ from yellowiron.exporters.ros.urdf import urdf_unsaid
 from yellowiron.exporters.sdf.model import add_joint
 from yellowiron.kinematics import complete
 from yellowiron.model.mechanism import GRAVITY, Spring
+from yellowiron.report.document import _joint_entry as joint_entry
+from yellowiron.report.html.joints import joint_rows
 from yellowiron.usd import read_mechanism
 
 HELD = 1e-3
@@ -116,3 +118,12 @@ def test_sdf_has_them_and_urdf_says_that_it_has_not() -> None:
     assert math.isclose(float(axis.findtext("dynamics/spring_reference", "nan")), edge.spring.rest, rel_tol=1e-9)
     assert axis.findtext("limit/effort") is None
     assert any("no springs" in words and sprung.SPRINGS[0] in words for words in urdf_unsaid(mechanism))
+
+
+def test_the_report_says_what_springs_are_there() -> None:
+    mechanism, _ = sprung.make()
+    entries = [joint_entry(joint) for joint in mechanism.joints]
+    assert [entry["name"] for entry in entries if "spring" in entry] == list(sprung.SPRINGS)
+    rows = joint_rows({"joints": entries, "actuators": []})
+    said = {row["name"]: row["drive"] for row in rows}
+    assert said["hub_l_joint"] == "spring, 500 kN/m, as drawn" and said["axle_joint"] == ""
