@@ -91,15 +91,16 @@ def draw_boom(k: Linkage, pose: Pose, hardware: Assembly) -> Assembly:
     band = cut(
         plate(BOOM_OUTLINE, "xz", -inside, inside),
         plate([(x, z, r - WEB) for x, z, r in BOOM_OUTLINE], "xz", -inside - 1, inside + 1),
-        box(-400, 86, -400, 400, -400, 400), box(BOOM - 230, BOOM + 400, -400, 400, -400, 400),
+        box(-400, 180, -400, 400, -400, 400), box(BOOM - 230, BOOM + 400, -400, 400, -400, 400),
     )  # fmt: skip
     middle = [(-400.0, 0.0), (0.0, 0.0), (1254.0, 280.0), (BOOM, 0.0), (BOOM + 400, 0.0)]
     above, below = [(BOOM + 400, 1800.0), (-400.0, 1800.0)], [(BOOM + 400, -1800.0), (-400.0, -1800.0)]
     for name, away in (("TOP", [*below[::-1], *middle[::-1]]), ("BOTTOM", [*middle, *above])):
         half = cut(band, plate([(x, z, 0.0) for x, z in away], "xz", -400, 400))
         tree.add(Part(f"BOOM {name} FLANGE", moved(half, at), YELLOW), body)
-    hub = ring((0, -BOOM_Y, 0), Y, 70, PIN / 2 + CLEARANCE, 2 * BOOM_Y)
-    tree.add(Part("BOOM FOOT BOSS", moved(hub, at), YELLOW), body)
+    # Two halves: the boom's cylinder is between them as it is out.
+    hub = ring((0, 64, 0), Y, 70, PIN / 2 + CLEARANCE, BOOM_Y - 64)
+    _both(tree, "BOOM FOOT BOSS", hub, at, body)
     _both(tree, "BOOM CYL LUG", _lug(dx, dz, 50, (dx + 110, dz + 260), (dx - 110, dz + 260)), at, body)
     _both(tree, "BOOM CYL BLOCK", box(dx - 70, dx + 70, 56, inside, dz + 190, dz + 250), at, body)
     _both(tree, "DIPPER CYL LUG", _lug(mx, mz, 50, (mx - 120, mz - 220), (mx + 80, mz - 220)), at, body)

@@ -73,7 +73,7 @@ def draw_top() -> Assembly:
     tree = Assembly("SUPERSTRUCTURE")
     weight = fuse(
         box(TAIL, -2350, -850, 850, 960, 1380),
-        box(TAIL, -2760, -640, 640, 420, 960),
+        box(TAIL, -2760, -540, 540, 420, 960),
     )
     tree.add(Part("COUNTERWEIGHT", weight, GREY), BODY)
     tree.add(Part("HOOD", cut(box(-2350, -1300, -430, 430, 960, 1330), box(-2300, -1350, -400, 400, 900, 1300))), BODY)

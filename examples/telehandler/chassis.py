@@ -57,7 +57,8 @@ def draw_frame(k: Linkage, hardware: Assembly) -> Assembly:
         add_pair(tree, "FRT AXLE MOUNT", box(FRONT_X - 58, FRONT_X + 58, 160, outside, AXLE_Z + 50, low), BODY)
     else:
         _hanger(tree, "FRT", FRONT_X)
-    tree.add(Part("COUNTERWEIGHT", box(REAR_X, -560, -620, 620, 480, 1_020), GREY), BODY)
+    # Between the rear wheels as they turn.
+    tree.add(Part("COUNTERWEIGHT", box(REAR_X, -560, -430, 430, 480, 1_260), GREY), BODY)
     tree.add(Part("TOWER BALLAST", box(-500, -150, -TOWER[0], TOWER[0], 720, 1_450), GREY), BODY)
     for role, x, z, size, half in (
         ("boom_pin", px, pz, PIN_BOOM, 212.0), ("lift_cylinder_barrel_pin", cx, cz, PIN_LIFT, 106.0),
@@ -105,21 +106,21 @@ def draw_top() -> Assembly:
     put("BELLY PAN", sheet_box(620, 1_880, -inside, inside, ground, low, 12.0), GREY)
     put("ENGINE", sheet_box(720, 1_780, -880, -outside - 60, low + 20, 1_300, 20.0), GREY)
     put("ENGINE BEARER", box(800, 1_700, -outside - 60, -outside, low + 20, high - 60), GREY)
-    hood = sheet_box(630, 1_870, -950, -outside, high - 50, 1_420, 6.0)
-    put("ENGINE HOOD", cut(hood, box(640, 1_860, -940, -outside - 6, high - 51, 1_400)))
-    put("FUEL TANK", sheet_box(440, 620, -700, -outside, low + 30, 1_150, 5.0), BLACK)
+    hood = sheet_box(705, 1_795, -950, -outside, high - 50, 1_420, 6.0)
+    put("ENGINE HOOD", cut(hood, box(711, 1_789, -940, -outside - 6, high - 51, 1_400)))
+    put("FUEL TANK", sheet_box(900, 1_600, outside, 640, 440, high - 70, 5.0), BLACK)
     put("EXHAUST", rod((760, -900, 1_420), Z, 40, 700), BLACK)
-    put("CAB FLOOR", box(600, 1_860, outside, 960, high - 60, high - 30), GREY)
-    front = [(610.0, high - 30, 0.0), (1_850.0, high - 30, 0.0), (1_780.0, top - 60, 0.0), (640.0, top - 60, 0.0)]
-    pane = [(690.0, 1_300.0, 0.0), (1_740.0, 1_300.0, 0.0), (1_690.0, top - 180, 0.0), (710.0, top - 180, 0.0)]
+    put("CAB FLOOR", box(705, 1_765, outside, 960, high - 60, high - 30), GREY)
+    front = [(710.0, high - 30, 0.0), (1_760.0, high - 30, 0.0), (1_700.0, top - 60, 0.0), (730.0, top - 60, 0.0)]
+    pane = [(780.0, 1_300.0, 0.0), (1_660.0, 1_300.0, 0.0), (1_620.0, top - 180, 0.0), (790.0, top - 180, 0.0)]
     for name, y in (("LH", 940.0), ("RH", outside + 10)):
         put(f"CAB SIDE {name}", cut(plate(front, "xz", y, y + 20), plate(pane, "xz", y - 1, y + 21)), BLACK)
         put(f"SIDE GLASS {name}", plate(pane, "xz", y + 7, y + 13), GLASS)
-    put("CAB ROOF", sheet_box(610, 1_800, outside + 10, 960, top - 60, top, 5.0))
-    glass = [(1_844.0, high - 30, 0.0), (1_850.0, high - 30, 0.0), (1_786.0, top - 60, 0.0), (1_780.0, top - 60, 0.0)]
+    put("CAB ROOF", sheet_box(705, 1_720, outside + 10, 960, top - 60, top, 5.0))
+    glass = [(1_754.0, high - 30, 0.0), (1_760.0, high - 30, 0.0), (1_706.0, top - 60, 0.0), (1_700.0, top - 60, 0.0)]
     put("FRONT GLASS", plate(glass, "xz", outside + 30, 940), GLASS)
-    put("SEAT BASE", sheet_box(750, 1_150, 400, 820, high - 30, 1_150, 5.0), GREY)
-    put("SEAT", fuse(box(740, 1_160, 400, 820, 1_150, 1_260), box(660, 740, 400, 820, 1_150, 1_850)), BLACK)
+    put("SEAT BASE", sheet_box(830, 1_200, 400, 820, high - 30, 1_150, 5.0), GREY)
+    put("SEAT", fuse(box(820, 1_210, 400, 820, 1_150, 1_260), box(740, 820, 400, 820, 1_150, 1_850)), BLACK)
     put("STEERING COLUMN", rod((1_450, 610, high - 30), Z, 40, 700), BLACK)
     put("STEERING WHEEL", rod((1_450, 610, high + 670), Z, 190, 25), BLACK)
     return tree

@@ -21,8 +21,8 @@ def template() -> Template:
 def test_it_moves_as_it_should_with_and_without_beams(template: Template) -> None:
     report = library.lint(template)
     assert [f for f in report.findings if f.severity != "info"] == []
-    # Steering, body, roll and six wheels; two beams.
-    assert [(m.computed, m.expected) for m in report.mobility] == [(11, 11)] * 3 + [(9, 9)] * 3
+    # Steering, body, roll and six wheels; two beams, with pads or without.
+    assert [(m.computed, m.expected) for m in report.mobility] == [(11, 11)] * 6 + [(9, 9)] * 6
 
 
 def test_fast_axles_are_of_the_rear_frame_and_need_no_beam(template: Template) -> None:

@@ -285,3 +285,18 @@ def test_tools_that_are_variants_have_their_own_sites_and_payloads(tmp_path: Pat
 def test_unusable_documents_end_in_a_message(tmp_path: Path, documents: dict[str, Any]) -> None:
     with pytest.raises(TemplateError):
         library.load_template(write(tmp_path, **documents))
+
+
+def test_a_module_says_what_it_asks_of_a_sheet(tmp_path: Path) -> None:
+    """Words of every language come with it; what the folder asks for itself stands first, with its own bounds."""
+    uses = {"machine": {"module": "machine"}, "body": {"module": "tilt_body", "on": "chassis"}}
+    bodies = {"tipper": {"rigid body": "N", "child": {"chassis": {"rigid body": "Y"}}}}
+    own = {"Load": {"dimension": "mass"}, "Body Dump Angle": {"common": "Body Dump Angle", "maximum": "60 deg"}}
+    for name, content in (("modules", uses), ("hierarchy", bodies), ("wanted", own)):
+        (tmp_path / f"{name}.json").write_text(json.dumps(content))
+    wanted = {w.name: w for w in library.load_template(tmp_path).wanted}
+    assert list(wanted)[:2] == ["Load", "Body Dump Angle"]
+    assert wanted["Body Dump Angle"].maximum == pytest.approx(1.0471975512)
+    known = {w.name: w for w in library.load_template("rigid_dump_truck").wanted}
+    for name in ("Hoist Cylinder Stroke", "Body Raise Time", "Loading Height", "Body Capacity Heaped"):
+        assert wanted[name].dimension == known[name].dimension and wanted[name].synonyms["en"]

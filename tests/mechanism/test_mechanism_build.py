@@ -286,6 +286,28 @@ def test_sites_at_the_first_joint_there_in_a_roles_middle_and_at_a_tip() -> None
     assert found["tooth"].x_axis == found["tip"].x_axis
 
 
+@pytest.mark.parametrize("tilted", [0.0, 0.2])
+def test_a_floor_is_the_widest_plane_below_that_faces_up(tilted: float) -> None:
+    """A sheet on the arm, below its box: its top is the floor, not the arm's, which is as wide and above it."""
+    plan = template()
+    rules = (SiteTemplate("floor", "arm", {"floor_of": "arm"}), SiteTemplate("none", "base", {"floor_of": "crane"}))
+    assembly, alignment = machine()
+    turn = rotation(0.0, tilted, 0.0)
+    turn[:3, 3] = (1.0, 0.0, 0.3)
+    assembly = replace(
+        assembly,
+        shapes={**assembly.shapes, "sheet": box("sheet", (3.0, 2.0, 0.02))},
+        parts=(*assembly.parts, Part("CRANE/SHEET", "SHEET", ("CRANE",), "sheet", turn)),
+    )
+    alignment = replace(alignment, parts=(*alignment.parts, PartAssignment("CRANE/SHEET", None, "arm", 1.0, "test")))
+    found = {s.name: s for s in build((assembly, alignment), plan=replace(plan, sites=rules)).sites}
+    floor, up = found["floor"], turn[:3, 2]
+    assert "none" not in found
+    assert floor.z_axis == pytest.approx(tuple(up), abs=1e-9)
+    assert floor.x_axis == pytest.approx((up[2], 0.0, -up[0]), abs=1e-9)
+    assert (np.array(floor.position) - (1.0, 0.0, 0.3)) @ up == pytest.approx(0.01, abs=1e-9)
+
+
 @pytest.mark.parametrize("shared", [True, False])
 def test_a_row_of_teeth_is_one_edge_however_the_cad_model_shares_their_shape(shared: bool) -> None:
     """Four teeth before the arm's edge: occurrences of one shape, or each drawn on its own, in place and mirrored."""

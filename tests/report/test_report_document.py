@@ -147,6 +147,14 @@ def test_findings_of_one_code_are_one_line_the_gravest_first() -> None:
     assert tally(document_) == "1 error, 1 warning, 1 note"
 
 
+def test_notes_of_a_simulation_leave_nothing_to_do() -> None:
+    told = [finding("SIM011", "together", "It falls over.", severity="info")]
+    noted = opened(simulation={"mujoco": {"findings": told}})
+    assert causes(noted) == [] and fell_short(noted) == [] and tally(noted) == "1 note"
+    warned = opened(simulation={"mujoco": {"findings": [finding("SIM005", "slide", "It ended away.")]}})
+    assert [cause.severity for cause in causes(warned)] == ["warning"] and len(fell_short(warned)) == 1
+
+
 def test_terminal_and_page_say_the_same_and_no_title_promises_what_is_not_so() -> None:
     from rich.console import Console
 

@@ -64,7 +64,8 @@ def _lines(mechanism: Mechanism, name: str, prims: Mapping[str, str]) -> Iterato
     joints = {j.name: prims.get(f"joint {j.name}", j.name).rpartition("/")[2] for j in mechanism.joints}
     tree = [j for j in mechanism.joints if not j.cut and j.type in ("revolute", "prismatic") and j.body1 not in loose]
     driven = [j for j in tree if j.drive is not None]
-    passive = [joints[j.name] for j in tree if j.drive is None]
+    passive = [joints[j.name] for j in tree if j.drive is None and j.spring is None]
+    springs = {joints[j.name]: float(f"{j.spring.rest:.9g}") for j in tree if j.spring is not None}
     names = {j.name for j in driven}
     groups = {a.name: [joints[e.joint] for e in a.joints if e.joint in names] for a in mechanism.actuators}
     groups = {actuator: own for actuator, own in groups.items() if own}
@@ -96,6 +97,9 @@ def _lines(mechanism: Mechanism, name: str, prims: Mapping[str, str]) -> Iterato
     yield '"""Lever → the joints that it drives: position targets for cylinders, velocity targets for motors."""'
     yield from _table("PASSIVE", passive)
     yield '"""Joints that follow from the loops, or roll freely."""'
+    if springs:
+        yield from _table("SPRINGS", springs)
+        yield '"""Joint → where its spring rests, on the ground: the position target to give it after every reset."""'
     yield from _table("CUTS", [joints[j.name] for j in mechanism.joints if j.cut])
     yield '"""Pins that close the loops: no coordinates of the articulation."""'
     yield from _table("LIMITS", limits)
@@ -122,6 +126,9 @@ def _lines(mechanism: Mechanism, name: str, prims: Mapping[str, str]) -> Iterato
     yield "                lever: ImplicitActuatorCfg(joint_names_expr=names, stiffness=None, damping=None)"
     yield "                for lever, names in ACTUATORS.items()"
     yield "            },"
+    if springs:
+        gains = "stiffness=None, damping=None"
+        yield f'            "springs": ImplicitActuatorCfg(joint_names_expr=list(SPRINGS), {gains}),'
     if passive:
         yield '            "passive": ImplicitActuatorCfg(joint_names_expr=PASSIVE, stiffness=0.0, damping=0.0),'
     yield "        },"

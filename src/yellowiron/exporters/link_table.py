@@ -16,7 +16,7 @@ from yellowiron.exporters.assets import plain, unique
 from yellowiron.exporters.values import axes_of, minus
 from yellowiron.model.errors import MechanismError
 from yellowiron.model.geometry import Floats
-from yellowiron.model.mechanism import Body, Drive, Joint, Mechanism, Site, Vector, chained, independent_joints
+from yellowiron.model.mechanism import Body, Drive, Joint, Mechanism, Site, Spring, Vector, chained, independent_joints
 from yellowiron.model.sensor import Sensor
 from yellowiron.model.template import by_first_leader
 from yellowiron.support.spatial import idle_spins
@@ -56,6 +56,7 @@ class Edge:
     upper: float | None = None
     drive: Drive | None = None
     follows: tuple[str, float, float] | None = None
+    spring: Spring | None = None
 
 
 @dataclass(frozen=True, eq=False)
@@ -107,7 +108,8 @@ def links_of(mechanism: Mechanism) -> LinkTable:
         axis = np.asarray(joint.axis, dtype=np.float64)
         axis = axis / (float(np.linalg.norm(axis)) or 1.0)
         unit = (float(axis[0]), float(axis[1]), float(axis[2]))
-        return Edge(names[joint.name], joint.name, kind, *ends, joint.anchor, unit, lower, upper, joint.drive, follows)
+        moved = Edge(names[joint.name], joint.name, kind, *ends, joint.anchor, unit, lower, upper, joint.drive, follows)
+        return moved if joint.spring is None else replace(moved, spring=joint.spring)
 
     waiting = [edge(j) for j in mechanism.joints if not j.cut]
     root = links[mechanism.root]

@@ -27,6 +27,7 @@ KIN015  with the template's pressure a cylinder could not hold the machine's own
 KIN016  the stroke of a driven cylinder ends early, where its twin on the other side is at the end of its own
 KIN017  the drives of a linkage with balls do not determine it in the drawn pose
 KIN018  bodies go through each other over the strokes (a warning where a stroke is no sheet's)
+KIN019  springs are to hold the machine as drawn, and no forces on the ground do
 ======  ========================================================================================================
 """
 

@@ -13,6 +13,7 @@ from yellowiron.kinematics.solver.chain import ClosedChain, Component
 from yellowiron.kinematics.solver.independence import suspects
 from yellowiron.kinematics.solver.pose_grid import PoseGrid, explore, joint_values
 from yellowiron.kinematics.spatial_hints import locked_hint
+from yellowiron.kinematics.springs import set_rests
 from yellowiron.kinematics.strength import strong_enough
 from yellowiron.kinematics.tolerances import PINS_APART
 from yellowiron.kinematics.twins import end_with_twins, twins_out_of_stroke
@@ -54,11 +55,13 @@ def complete(mechanism: Mechanism) -> Mechanism:
     - The stroke of a driven slide ends where the linkage locks.
     - `Loop.branch`: the sign of each loop's triangle of pivots (`branches.branch_pivots`).
     - Gains of drives that have none, or only provisional ones (`gains.set_gains`); the parking brakes of motors.
+    - Where springs rest that hold the machine as drawn (`springs.set_rests`).
 
     Findings: KIN001 stroke past a dead point, KIN002 unreachable combination of strokes, KIN003 branch, KIN004 passive
     twin out of stroke, KIN005 mobility, KIN006 stated limit against the loop's, KIN007 drive without force or speed,
     KIN008 pins out of parallel, KIN009 no ends of stroke, KIN015 too weak for its own weight, KIN016 stroke that
-    ends with its twin's, KIN017 drives that do not determine a linkage in space.
+    ends with its twin's, KIN017 drives that do not determine a linkage in space, KIN019 springs on a machine that does
+    not stand as drawn.
     Raises `MechanismError` where the joints are no tree with cuts.
     """
     chain = ClosedChain(mechanism)
@@ -80,6 +83,7 @@ def complete(mechanism: Mechanism) -> Mechanism:
     work.findings += strong_enough(chain, grids, work.joints)
     work.findings += set_gains(chain, grids, work.joints, ringed=bool(whole.floating))
     set_brakes(chain, grids, work.joints)
+    work.findings += set_rests(chain, work.joints)
     return replace(
         whole,
         joints=tuple(work.joints[joint.name] for joint in whole.joints),

@@ -79,11 +79,15 @@ def _further(joint: JointTemplate) -> dict[str, Any]:
         entry["free"] = "Y"
     if joint.ring:
         entry["ring"] = "Y"
+    if joint.rest is not None:
+        entry["rest"] = (
+            joint.rest if isinstance(joint.rest, str) else number_text(joint.rest, SI_UNIT[DIMENSION[joint.type]])
+        )
     if joint.direction is not None:
         entry["direction"] = joint.direction.capitalize()
     if joint.follows is not None:
         entry["follows"] = _coupled(joint.follows, SI_UNIT[DIMENSION[joint.type]])
-    for key, when in (("when", joint.when), ("drive_when", joint.drive_when)):
+    for key, when in (("when", joint.when), ("drive_when", joint.drive_when), ("rest_when", joint.rest_when)):
         if when:
             entry[key] = {name: list(choices) for name, choices in when.items()}
     return entry

@@ -206,6 +206,7 @@ def _check_variants(template: Template, documents: Mapping[str, Document]) -> No
         place = documents["joints"].at(joint.name)
         check_choices({**joint.when}, template.variants, f"{place}.when")
         check_choices({**joint.drive_when}, template.variants, f"{place}.drive_when")
+        check_choices({**joint.rest_when}, template.variants, f"{place}.rest_when")
     for actuator in template.actuators:
         for cylinder in actuator.cylinders:
             if cylinder.when:

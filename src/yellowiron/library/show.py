@@ -103,9 +103,24 @@ def _joint(joint: JointTemplate, other: str) -> Text:
     words += ["closed to a ring"] if joint.ring else []
     words += [joint.follows.words] if joint.follows else []
     words += [f"held as drawn, or {', '.join(joint.positions)}"] if joint.positions else []
-    words += ["free"] if joint.free and (joint.drive is None or joint.drive_when) else []
+    words += [_spring(joint), *_when(joint.rest_when, "sprung where ")] if joint.rest is not None else []
+    words += (
+        ["free"]
+        if joint.free and (joint.rest is None or joint.rest_when) and (joint.drive is None or joint.drive_when)
+        else []
+    )
     words += _when(joint.when)
     return Text.assemble((joint.name, "cyan"), (f"  {', '.join(words)}", "dim"))
+
+
+def _spring(joint: JointTemplate) -> str:
+    """How stiff it is, how much it damps, and where it rests."""
+    unit = SI_UNIT[DIMENSION[joint.type]]
+    per = {"m": ("N/m", "N*s/m"), "rad": ("N*m/rad", "N*m*s/rad")}[unit]
+    gains = zip((joint.stiffness, joint.damping), per, strict=True)
+    of = " and ".join(number_text(gain, one) for gain, one in gains if gain)
+    rest = joint.rest if isinstance(joint.rest, str) else number_text(joint.rest or 0.0, unit)
+    return f"spring of {of}, its rest {rest}"
 
 
 def _when(when: Choices, before: str = "") -> list[str]:

@@ -32,7 +32,7 @@ from yellowiron.model.assembly import Assembly
 from yellowiron.model.errors import MechanismError
 from yellowiron.model.finding import Finding
 from yellowiron.model.geometry import Floats
-from yellowiron.model.mechanism import HELD, Drive, Joint, Mechanism, Vector
+from yellowiron.model.mechanism import HELD, STATED, Drive, Joint, Mechanism, Spring, Vector
 from yellowiron.model.rows import as_drawn, names_known
 from yellowiron.model.specification import Specifications
 from yellowiron.model.template import JointTemplate, Material, Template
@@ -290,7 +290,18 @@ def _joint(
         free=entry.free,
         drive=powered.get(entry.name),
         source=source,
+        spring=_spring(entry),
     )
+
+
+def _spring(entry: JointTemplate) -> Spring | None:
+    """A joint's spring; where one that is to hold the machine as drawn rests is the kinematics' part."""
+    if entry.rest is None:
+        return None
+    rest, as_drawn = (0.0, True) if isinstance(entry.rest, str) else (entry.rest, False)
+    stated = ", ".join(name for name in ("stiffness", "damping", "rest") if getattr(entry, name) is not None)
+    gains = entry.stiffness or 0.0, entry.damping or 0.0
+    return Spring(*gains, rest, rest, as_drawn=as_drawn, source=f"{STATED}{stated}")
 
 
 def _with_idle_held(joints: Sequence[Joint], tree: Tree, findings: list[Finding]) -> tuple[Joint, ...]:

@@ -71,6 +71,8 @@ def _site(
         )
     if "middle_of" in rule:
         return _middle_site(entry, placement)
+    if "floor_of" in rule:
+        return _floor_site(entry, placement)
     if "foremost" in rule:
         return _foremost_site(entry, placement)
     if "heel" in rule:
@@ -119,6 +121,27 @@ def _middle_site(entry: SiteTemplate, placement: Placement) -> Site | None:
         return None
     middle = 0.5 * (points.min(axis=0) + points.max(axis=0))
     return Site(entry.name, entry.body, clean_triple(middle), source=f"middle of {entry.rule['middle_of']}")
+
+
+def _floor_site(entry: SiteTemplate, placement: Placement) -> Site | None:
+    """On the widest plane that faces up of those in the lower half of a role's parts, of a body's where the role is
+    one: under or over the middle of these parts, x along the plane, forwards."""
+    role = str(entry.rule["floor_of"])
+    rows = placement.rows_of_body(role) if role == entry.body else placement.rows_of_role(role)
+    if not len(rows):
+        return None
+    corners = placement.points_of(tuple(rows))
+    middle = 0.5 * (corners.min(axis=0) + corners.max(axis=0))
+    points, normals, areas = (np.concatenate(each) for each in zip(*map(placement.planes, rows), strict=True))
+    widest = _widest(points, normals, areas, (normals[:, 2] > _FACING) & (points[:, 2] < middle[2]))
+    if widest is None:
+        return None
+    up, height = widest
+    middle[2] = (height - up[:2] @ middle[:2]) / up[2]
+    x_axis = np.cross((0.0, 1.0, 0.0), up)
+    x_axis /= np.linalg.norm(x_axis)
+    source = f"floor of '{role}'"
+    return Site(entry.name, entry.body, clean_triple(middle), clean_triple(x_axis), clean_triple(up), source)
 
 
 def _foremost_site(entry: SiteTemplate, placement: Placement) -> Site:

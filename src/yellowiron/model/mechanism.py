@@ -139,12 +139,31 @@ class Drive:
 
 
 @dataclass(frozen=True)
+class Spring:
+    """A spring and a damper on a joint that nothing drives: its force along the coordinate q is `stiffness`·(rest − q)
+    − `damping`·q̇. N/m and N·s/m (slides) or N·m/rad and N·m·s/rad (pivots); `rest` and `hanging` in metres or radians
+    from the drawn pose. `rest` counts for a machine on its ground, `hanging` for one whose root is fixed: of one that
+    is `as_drawn` they are such that it stays as drawn, either way."""
+
+    stiffness: float
+    damping: float
+    rest: float = 0.0
+    hanging: float = 0.0
+    as_drawn: bool = False
+    source: str = ""
+
+    def rest_of(self, base: str) -> float:
+        """Where it pushes nothing, for a machine whose base is `floating` or `fixed`."""
+        return self.hanging if base == "fixed" else self.rest
+
+
+@dataclass(frozen=True)
 class Joint:
     """A joint in the drawn pose, where its coordinate is 0. `body0` is the parent in the tree (for a cut joint: the
     body nearer the root); `axis` is a unit vector, `anchor` a point on it, both in the machine frame. Limits are in
     metres or radians from the drawn pose, None: unlimited. `free` coordinates move without a drive (an oscillating
-    axle); that of one that `follows` is its leader's times a ratio. `source` holds the evidence: template entry, CAD
-    parts, residuals, page and quote of a limit."""
+    axle), where they have one against a `spring`; that of one that `follows` is its leader's times a ratio. `source`
+    holds the evidence: template entry, CAD parts, residuals, page and quote of a limit."""
 
     name: str
     type: JointType
@@ -159,6 +178,7 @@ class Joint:
     drive: Drive | None = None
     source: Mapping[str, Any] = field(default_factory=dict)
     follows: Follows | None = None
+    spring: Spring | None = None
 
     @property
     def held(self) -> bool:

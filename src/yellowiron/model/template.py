@@ -87,8 +87,10 @@ class JointTemplate:
     `ring`: of a joint along a row (`shoe[i]`, `shoe[i+1]`), the last part is joined to the first; such a ring is joined
     to nothing else and touches the machine only. `follows`: another joint leads it, and nothing drives it. `direction`:
     its axis as drawn. `positions`: name → where else than as drawn it may be held, metres or radians from there (a pin
-    in another hole); `at`: which is chosen, nothing moves on it then. `documents`: the file name of the user's document
-    that says what it joins (`joint`) or its limits (`limit`).
+    in another hole); `at`: which is chosen, nothing moves on it then. `rest`: nothing drives it and a spring with its
+    stiffness, and a damper, are on it, which push nothing there (m or rad from the drawn pose; `AS_DRAWN`: they are
+    stretched so that the machine stands as drawn), under the choices of `rest_when`. `documents`: the file name of the
+    user's document that says what it joins (`joint`) or its limits (`limit`).
     """
 
     name: str
@@ -110,6 +112,8 @@ class JointTemplate:
     direction: Direction | None = None
     positions: Mapping[str, float] = field(default_factory=dict, hash=False)
     at: float | None = None
+    rest: float | str | None = None
+    rest_when: Choices = field(default_factory=dict)
 
     @property
     def chosen_by(self) -> str:
@@ -118,7 +122,7 @@ class JointTemplate:
 
 
 AS_DRAWN = "drawn"
-"""The choice of a joint's position in which nothing is moved."""
+"""The choice of a joint's position in which nothing is moved; the rest of a spring that holds the machine as drawn."""
 
 
 @dataclass(frozen=True)
@@ -227,9 +231,9 @@ class ActuatorTemplate:
 @dataclass(frozen=True)
 class SiteTemplate:
     """A named frame on a body. `rule` says where: {"joint": J} (its anchor), {"along": J} (there, upright along that
-    slide), {"pointing": J} (there, x along it), {"heel": 0.02} (of the foremost parts), {"edge_from": J, "spanning":
-    0.8} (the point of the body farthest from that joint's axis among parts spanning that share of the body's width
-    along the axis), {"point": [x, y, z]} (machine frame)."""
+    slide), {"pointing": J} (there, x along it), {"heel": 0.02} (of the foremost parts), {"floor_of": R} (of its parts),
+    {"edge_from": J, "spanning": 0.8} (the point of the body farthest from that joint's axis among parts spanning that
+    share of the body's width along the axis), {"point": [x, y, z]} (machine frame)."""
 
     name: str
     body: str
@@ -430,7 +434,12 @@ def choose(template: Template, choices: Mapping[str, str]) -> Template:
 
     roles = tuple(_chosen(r, chosen) for r in template.roles if holds(r.when, chosen))
     joints = tuple(
-        replace(_held(j, chosen), when={}, drive_when={}, drive=j.drive if holds(j.drive_when, chosen) else None)
+        replace(
+            _unsprung(_held(j, chosen), chosen),
+            when={},
+            drive_when={},
+            drive=j.drive if holds(j.drive_when, chosen) else None,
+        )
         for j in template.joints
         if holds(j.when, chosen)
     )
@@ -472,6 +481,13 @@ def _held(joint: JointTemplate, chosen: Mapping[str, str]) -> JointTemplate:
     if not joint.positions:
         return joint
     return replace(joint, at=joint.positions.get(chosen.get(joint.chosen_by, AS_DRAWN), 0.0), positions={})
+
+
+def _unsprung(joint: JointTemplate, chosen: Mapping[str, str]) -> JointTemplate:
+    """A joint without its spring where that is not chosen; any other as it is."""
+    if joint.rest is None or holds(joint.rest_when, chosen):
+        return replace(joint, rest_when={})
+    return replace(joint, rest=None, rest_when={}, stiffness=None, damping=None)
 
 
 def in_position(template: Template) -> Template:

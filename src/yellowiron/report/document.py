@@ -143,6 +143,7 @@ def fell_short(document: Mapping[str, Any]) -> list[str]:
         f"{f['code']} {engine}, {f['where']}: {f['message']}"
         for engine, run in document["simulation"].items()
         for f in run["findings"]
+        if f.get("severity") != "info"
     ]
     mobility = document["mobility"]
     if mobility is not None and mobility["computed"] != mobility["expected"]:
@@ -194,8 +195,8 @@ def _body_entry(body: Body) -> dict[str, Any]:
 
 def _joint_entry(joint: Joint) -> dict[str, Any]:
     entry = asdict(joint)
-    drive, follows = entry.pop("drive"), entry.pop("follows")
-    return {**entry, "drive": drive, **({"follows": follows} if follows else {})}
+    drive, more = entry.pop("drive"), {key: entry.pop(key) for key in ("follows", "spring")}
+    return {**entry, "drive": drive, **{key: value for key, value in more.items() if value}}
 
 
 def _counts(mechanism: Mechanism, template: Template) -> dict[str, int]:

@@ -49,7 +49,8 @@ def tally(document: Mapping[str, Any]) -> str:
     """`1 error, 6 warnings, 21 notes`, of causes and of remarks that leave nothing to do."""
     found = causes(document)
     numbers = {kind: sum(cause.severity == kind for cause in found) for kind in ("error", "warning")}
-    numbers["note"] = sum(f["severity"] == "info" for f in document["findings"])
+    driven = [entry for run in document["simulation"].values() for entry in run["findings"]]
+    numbers["note"] = sum(f.get("severity") == "info" for f in (*document["findings"], *driven))
     return ", ".join(counted(number, kind) for kind, number in numbers.items() if number) or "nothing open"
 
 
@@ -109,7 +110,8 @@ def _findings(document: Mapping[str, Any]) -> list[Cause]:
             told.setdefault((entry["severity"], entry["code"], ""), []).append(entry)
     for engine, run in document["simulation"].items():
         for entry in run["findings"]:
-            told.setdefault((entry.get("severity", "warning"), entry["code"], f"{engine}, "), []).append(entry)
+            if (severity := entry.get("severity", "warning")) != "info":
+                told.setdefault((severity, entry["code"], f"{engine}, "), []).append(entry)
     return [_alike(key, entries) for key, entries in told.items()]
 
 

@@ -18,7 +18,7 @@ from pxr import Gf, Sdf, Tf, Usd, UsdGeom, UsdPhysics, UsdUtils
 
 from yellowiron.model.errors import YellowironError
 from yellowiron.model.geometry import Floats
-from yellowiron.model.mechanism import Body, BodyPart, BodyShape, Drive, Joint, Mechanism, Site
+from yellowiron.model.mechanism import Body, BodyPart, BodyShape, Drive, Joint, Mechanism, Site, Spring
 from yellowiron.model.template import Follows, JointType, by_first_leader
 from yellowiron.support.record import ENDLESS, RECORD
 from yellowiron.support.vectors import triple
@@ -255,6 +255,7 @@ class _Reader:
             drive=None if drive is None else _drive(prim, kind, from_json(Drive, drive)),
             source=from_json(dict, data["evidence"]) if "evidence" in data else {},
             follows=self._follows(prim, kind, data),
+            spring=_spring(prim, kind, data),
         )
 
     def _follows(self, prim: Usd.Prim, kind: str, data: Any) -> Follows | None:
@@ -338,6 +339,17 @@ def _drive(prim: Usd.Prim, kind: str, recorded: Drive) -> Drive:
     if strongest != recorded.strongest:  # edited: the attribute limits both ways
         drive = replace(drive, max_force=strongest, reverse_force=None)
     return drive
+
+
+def _spring(prim: Usd.Prim, kind: str, data: Any) -> Spring | None:
+    """The recorded spring, with the gains that were edited in its attributes; None where it was taken off."""
+    if "spring" not in data or kind not in INSTANCES or not prim.HasAPI(UsdPhysics.DriveAPI, INSTANCES[kind]):
+        return None
+    recorded = from_json(Spring, data["spring"])
+    api, factor = UsdPhysics.DriveAPI(prim, INSTANCES[kind]), per_usd_unit(kind)
+    stiffness = _number(api.GetStiffnessAttr(), recorded.stiffness, factor)
+    damping = _number(api.GetDampingAttr(), recorded.damping, factor)
+    return replace(recorded, stiffness=stiffness, damping=damping)
 
 
 def _kind(prim: Usd.Prim) -> str:

@@ -174,7 +174,8 @@ def edited_drive(view: View) -> Remarks:
         if joint.cut:
             continue
         try:
-            built = json.loads(record.get("drive", "null"))
+            sprung = json.loads(record.get("spring", "null"))
+            built = json.loads(record.get("drive", "null")) if sprung is None else {"kind": "position", **sprung}
         except (json.JSONDecodeError, TypeError):
             continue
         if (built is None) != (not joint.drives):

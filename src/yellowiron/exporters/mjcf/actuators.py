@@ -8,7 +8,7 @@ from xml.etree import ElementTree as ET
 
 from yellowiron.exporters.mjcf.hardness import SOLIMP, SOLREF
 from yellowiron.exporters.values import row, text
-from yellowiron.model.mechanism import Actuator, ActuatorJoint, Drive, Joint, Mechanism
+from yellowiron.model.mechanism import Actuator, ActuatorJoint, Drive, Joint, Mechanism, Spring
 
 DAMPING = ".damping"
 """Ends the name of the actuator that damps another's joint; its control does nothing."""
@@ -64,6 +64,12 @@ def limits(drive: Drive) -> dict[str, str]:
     if drive.rated and math.isfinite(drive.strongest):
         values["actuatorfrcrange"] = row((-drive.forces[0], drive.forces[1]))
     return values
+
+
+def spring(held: Spring, base: str) -> dict[str, str]:
+    """What a joint's own element says of its spring; it rests where a machine with that base has it rest."""
+    values = {"stiffness": held.stiffness, "springref": held.rest_of(base), "damping": held.damping}
+    return {name: text(value) for name, value in values.items() if value != 0.0}
 
 
 def _controls(actuator: Actuator, mechanism: Mechanism) -> dict[str, ActuatorJoint]:

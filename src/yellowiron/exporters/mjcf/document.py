@@ -197,6 +197,8 @@ class _Document:
             made.set("range", row((joint.lower, joint.upper)))
         for name, value in (actuators.limits(joint.drive) if joint.drive is not None else {}).items():
             made.set(name, value)
+        for name, value in (actuators.spring(joint.spring, self._base) if joint.spring is not None else {}).items():
+            made.set(name, value)
 
     def _geometry_of(self, element: ET.Element, body: str, shapes: BodyGeometry) -> None:
         for visual in shapes.visuals if self._drawn_apart else ():

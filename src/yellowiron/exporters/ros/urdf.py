@@ -74,6 +74,9 @@ def urdf_unsaid(mechanism: Mechanism) -> tuple[str, ...]:
     if endless:
         said.append(f"URDF's slides need ends: {_FAR:g} m to either side for {', '.join(endless)}.")
     said += still_words(table)
+    springs = [e.name for e in table.tree if e.spring is not None]
+    if springs:
+        said.append(f"URDF has no springs: their damping alone is written, of {', '.join(springs)}.")
     if any(e.drive is not None for e in table.tree):
         said.append("URDF has no gains and no friction of materials: the drives' stiffness and damping are left out.")
     return tuple(said)
@@ -173,6 +176,8 @@ class _Robot:
             low, high = (one.lower, one.upper) if bounded else (-_FAR, _FAR)
             limit = {"lower": text(low or 0.0), "upper": text(high or 0.0), **limit}
         ET.SubElement(made, "limit", limit)
+        if one.spring is not None:
+            ET.SubElement(made, "dynamics", damping=text(one.spring.damping))
         if one.follows is not None:
             leader, ratio, offset = one.follows
             ET.SubElement(made, "mimic", joint=leader, multiplier=text(ratio), offset=text(offset))

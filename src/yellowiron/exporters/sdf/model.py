@@ -61,7 +61,12 @@ def add_joint(model: ET.Element, one: Edge, table: LinkTable) -> ET.Element:
         child(limit, "lower", text(one.lower))
         child(limit, "upper", text(one.upper))
     drive = one.drive
-    if drive is None:
+    if one.spring is not None:
+        dynamics = child(axis, "dynamics")
+        child(dynamics, "damping", text(one.spring.damping))
+        child(dynamics, "spring_reference", text(one.spring.rest))
+        child(dynamics, "spring_stiffness", text(one.spring.stiffness))
+    elif drive is None:
         child(limit, "effort", "0")
     elif 0.0 < drive.strongest < math.inf:
         child(limit, "effort", text(drive.strongest))

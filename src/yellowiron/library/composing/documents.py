@@ -20,9 +20,10 @@ _OF_LAYERS = ("like", "without", "order")
 def template_documents(folder: Path) -> dict[str, Document]:
     """A template's documents by kind, each whole and valid by its schema.
 
-    What the folder's modules bring comes first, in the order of `modules.json`, and the folder's own document is put on
-    top. A document that is `like` another type's is put on top of that one, less the entries whose names match a
-    pattern of `without`: objects key by key, lists of named entries one after the other, anything else instead; the
+    What the folder's modules bring comes first, in the order of `modules.json` (of wanted values last, what the folder
+    does not ask for itself), and the folder's own document is put on top. A document that is `like` another type's is
+    put on top of that one, less the entries whose names match a pattern of `without`: objects key by key, lists of
+    named entries one after the other, anything else instead; the
     group that has the other type's name has this one's. Where the folder has a `modules.json` of its own, it is put on
     top of what the other type adds to its modules. Entries stand in the order that the patterns of `order` say.
     `TemplateError` names file and key."""
@@ -79,7 +80,10 @@ def _content(folder: Path, kind: str, above: tuple[Path, ...], known: dict[Path,
         order = _names(content["order"], documents_in(folder).get(kind, folder), "order")
         content = {name: entry for name, entry in content.items() if name != "order"}
     if brought is not None:
+        own = content if isinstance(content, dict) else {}
         content = brought if content is None else on_top(brought, content)
+        if kind == "wanted" and isinstance(content, dict):
+            content = {name: content[name] for name in (*own, *(n for n in content if n not in own))}
         content = nested(content) if kind == "hierarchy" and isinstance(content, dict) else content
     if not order:
         return content

@@ -52,13 +52,13 @@ def _gains(template: Template) -> Iterator[Finding]:
     """Gains of joints that nothing drives."""
     for joint in template.joints:
         stated = [name for name, _ in stated_gains(joint)]
-        if joint.drive is None and stated:
+        if joint.drive is None and joint.rest is None and stated:
             yield Finding(
                 "TPL017",
                 "warning",
                 joint.name,
                 f"The joint states {', '.join(stated)} and has no drive: they have no effect.",
-                "Give it a Drive.",
+                'Give it a Drive, or a rest: "drawn" makes them those of a spring that holds it as drawn.',
             )
 
 

@@ -63,10 +63,12 @@ def read_joint(document: Document, name: str, entry: Mapping[str, Any], base: Jo
         free=yes(entry["free"]) if "free" in entry else base.free,
         when=choices_of(entry, "when") if "when" in entry else base.when,
         drive_when=choices_of(entry, "drive_when") if "drive_when" in entry else base.drive_when,
+        rest_when=choices_of(entry, "rest_when") if "rest_when" in entry else base.rest_when,
         ring=yes(entry["ring"]) if "ring" in entry else base.ring,
         follows=_follows(document, name, entry["follows"], kind) if "follows" in entry else base.follows,
         direction=cast(Direction, entry["direction"].lower()) if "direction" in entry else base.direction,
         positions=_positions(document, name, entry["positions"], kind) if "positions" in entry else base.positions,
+        rest=_rest(document, name, entry["rest"], kind) if "rest" in entry else base.rest,
     )
     if joint.positions and (joint.drive is not None or joint.follows is not None):
         raise TemplateError(
@@ -86,13 +88,52 @@ def read_joint(document: Document, name: str, entry: Mapping[str, Any], base: Jo
             where=document.at(name, "Body"),
             hint="Its Body is [name[i], name[i+1]].",
         )
-    return replace(
+    joint = replace(
         joint,
         stiffness=gains.get("stiffness", base.stiffness),
         damping=gains.get("damping", base.damping),
         max_force=gains.get("max_force", base.max_force),
         max_velocity=gains.get("max_velocity", base.max_velocity),
     )
+    return _sprung(document, joint) if joint.rest is not None else joint
+
+
+def _rest(document: Document, name: str, value: Any, kind: str) -> float | str:
+    """Where a spring pushes nothing, SI, or `AS_DRAWN`."""
+    place = document.at(name, "rest")
+    if kind not in _COUPLED:
+        raise TemplateError(
+            f"Joint '{name}' is {kind} and has no spring",
+            where=place,
+            hint="A slide or a pivot has one: rest goes with Prismatic and Revolute.",
+        )
+    drawn = isinstance(value, str) and fold(value) == AS_DRAWN
+    return AS_DRAWN if drawn else quantity(value, DIMENSION[kind], where=place)
+
+
+def _sprung(document: Document, joint: JointTemplate) -> JointTemplate:
+    """A joint with a spring moves on its own. `TemplateError` where something else moves or holds it, or nothing says
+    how stiff it is."""
+    for what, other in (("Drive", joint.drive), ("follows", joint.follows), ("positions", joint.positions)):
+        if other:
+            raise TemplateError(
+                f"Joint '{joint.name}' has a spring and {what}",
+                where=document.at(joint.name, "rest"),
+                hint=f"Leave out {what}, or rest: a spring is on a joint that moves on its own.",
+            )
+    if joint.ring or any(split_index(part)[1] for part in joint.parts):
+        raise TemplateError(
+            f"Joint '{joint.name}' has a spring and is a row of joints",
+            where=document.at(joint.name, "rest"),
+            hint="A joint that is there once may have one.",
+        )
+    if not joint.stiffness and not joint.damping:
+        raise TemplateError(
+            f"Joint '{joint.name}' has a rest, and neither stiffness nor damping",
+            where=document.at(joint.name, "rest"),
+            hint="State its stiffness, N/m or N*m/rad, and its damping.",
+        )
+    return replace(joint, free=True)
 
 
 def _positions(document: Document, name: str, entry: Mapping[str, Any], kind: str) -> dict[str, float]:

@@ -35,8 +35,9 @@ def read_measurements(
                 several = isinstance(given, list)
                 found = tuple(known(joint, place, names, "joint") for joint in (given if several else [given]))
                 rule[key] = found if several else found[0]
-        if "middle_of" in rule:
-            rule["middle_of"] = known(rule["middle_of"], document.at("sites", name, "middle_of"), parts, "role")
+        for key in ("middle_of", "floor_of"):
+            if key in rule:
+                rule[key] = known(rule[key], document.at("sites", name, key), parts, "role")
         body = known(entry["body"], document.at("sites", name, "body"), bodies, "body")
         sites.append(SiteTemplate(name, body, rule, choices_of(entry, "when")))
     measurements = []

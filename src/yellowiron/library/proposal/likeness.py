@@ -71,9 +71,8 @@ class Likeness:
         entry = self.joints.get(name)
         if entry is None:
             return None
-        return {
-            k: v for k, v in entry.items() if k not in ("joint_type", "Body", "when", "drive_when", "source", "ring")
-        }
+        other = ("joint_type", "Body", "when", "drive_when", "rest_when", "source", "ring")
+        return {k: v for k, v in entry.items() if k not in other}
 
     def actuator(self, slides: Sequence[str]) -> tuple[str, Json] | None:
         """Its actuator with exactly these slides: (name, entry)."""

@@ -75,9 +75,19 @@ def _drive(drive: Mapping[str, Any], unit: str) -> str:
 
 
 def _led(joints: Sequence[Mapping[str, Any]]) -> str:
-    """What joints follow, in the place of a drive."""
-    said = [Follows(**joint["follows"]).words if "follows" in joint else "" for joint in joints]
+    """What joints follow, or the springs on them, in the place of a drive."""
+    said = [Follows(**joint["follows"]).words if "follows" in joint else _sprung(joint) for joint in joints]
     return said[0] if len(set(said)) == 1 else "each its own"
+
+
+def _sprung(joint: Mapping[str, Any]) -> str:
+    """A joint's spring, where it has one, and whether it holds the machine as drawn."""
+    if "spring" not in joint:
+        return ""
+    slides = joint["type"] == "prismatic"
+    stiffness, unit = joint["spring"]["stiffness"], "m" if slides else "rad"
+    rest = "as drawn" if joint["spring"]["as_drawn"] else f"rests at {shown(joint['spring']['rest'], unit)}"
+    return f"spring, {stiffness / 1e3:.4g} {'kN/m' if slides else 'kN·m/rad'}, {rest}"
 
 
 def _span(joint: Mapping[str, Any]) -> str:

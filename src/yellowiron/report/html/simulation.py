@@ -39,7 +39,7 @@ def in_a_sentence(simulation: Mapping[str, Run]) -> str:
         return ""
     names = [f"{engine_name(name)} {run['version']}" for name, run in simulation.items()]
     worst = max(run["pin_error_mm"] for run in simulation.values())
-    found = sum(len(run["findings"]) for run in simulation.values())
+    found = sum(f.get("severity") != "info" for run in simulation.values() for f in run["findings"])
     kept = "every bar held" if not found else f"{found} {'finding' if found == 1 else 'findings'}"
     listed = " and ".join([", ".join(names[:-1]), names[-1]] if len(names) > 1 else names)
     return f"Driven in {listed}: worst pin {worst:.3f} mm from its place, {kept}."

@@ -28,6 +28,7 @@ from yellowiron.simulation.strokes.comparison import Agreement, Comparison, Wors
 from yellowiron.simulation.strokes.held import held_machine
 from yellowiron.simulation.strokes.recording import record
 from yellowiron.simulation.strokes.result import ActuatorResult, BranchResult, PhaseResult, SimulationResult
+from yellowiron.simulation.strokes.standing import falls_over
 from yellowiron.usd import read_mechanism
 
 FINAL_BAR = 0.01
@@ -66,7 +67,8 @@ def simulate(
 
     `base`: `fixed` (in the air) or `floating` (on the ground, on its wheels or tracks), by default `usual_base`; `dt`
     in seconds (default: the engine's); `settings`: what a build writes, or each engine's own defaults; `actuators`:
-    only these. Findings SIM001 … SIM005 say what fell short of the engine's bars.
+    only these. Findings SIM001 … SIM005 say what fell short of the engine's bars, SIM011 what was not driven because
+    the machine falls over there.
     Raises `YellowironError` for an unknown engine or actuator, an engine that is not installed, and an unusable file.
     """
     entry = find_engine(engine)
@@ -105,6 +107,10 @@ def simulate(
     commands = phases(moves, step, on_ground=base == "floating", paces=paces(comparison.chain, moves))
     try:
         for phase in commands:
+            fallen = falls_over(mechanism, comparison.chain, phase) if base == "floating" else None
+            if fallen is not None:
+                run.left_out.append(fallen)
+                continue
             progress(f"Simulating in {engine}: {phase.name}")
             if not run.phase(phase):
                 break
@@ -153,6 +159,7 @@ class _Run:
     seen: dict[str, _DriveRecord] = field(default_factory=dict)
     done: list[tuple[Phase, Agreement]] = field(default_factory=list)
     sweeps: list[Sweep] = field(default_factory=list)
+    left_out: list[Finding] = field(default_factory=list)
     steps: int = 0
     seconds: float = 0.0
 
@@ -249,7 +256,7 @@ class _Run:
             pin_bar=pin_bar,
             angle_bar=angle_bar,
         )
-        return replace(made, findings=tuple(_findings(made)))
+        return replace(made, findings=(*_findings(made), *self.left_out))
 
     def _unit(self, motion: Motion) -> str:
         return "m" if self.comparison.chain.mechanism.joint(motion.joint).type == "prismatic" else "rad"

@@ -6,7 +6,7 @@ import math
 
 from pxr import Sdf
 
-from yellowiron.model.mechanism import Drive, Joint
+from yellowiron.model.mechanism import Drive, Joint, Spring
 from yellowiron.usd.authoring.stage import Types, apply_schemas, set_attribute
 
 INSTANCES = {"revolute": "angular", "prismatic": "linear"}
@@ -34,6 +34,21 @@ def speed_limit(joint: Joint) -> float:
         return math.inf
     spare = CATCHING_UP if drive.kind == "position" else 1.0
     return spare * drive.slowest * to_usd_unit(joint.type)
+
+
+def write_spring(spec: Sdf.PrimSpec, joint: Joint, spring: Spring) -> None:
+    """A spring as a drive that no lever commands: its gains. Its target is where it rests (`write_rest`)."""
+    instance, factor = INSTANCES[joint.type], per_usd_unit(joint.type)
+    apply_schemas(spec, f"PhysicsDriveAPI:{instance}")
+    for name, value in (("stiffness", spring.stiffness), ("damping", spring.damping)):
+        if value != 0.0:
+            set_attribute(spec, f"drive:{instance}:physics:{name}", Types.Float, float(value * factor))
+
+
+def write_rest(spec: Sdf.PrimSpec, joint: Joint, rest: float) -> None:
+    """Where a spring rests, m or rad, in USD's units."""
+    name = f"drive:{INSTANCES[joint.type]}:physics:targetPosition"
+    set_attribute(spec, name, Types.Float, float(rest * to_usd_unit(joint.type)))
 
 
 def write_drive(spec: Sdf.PrimSpec, joint: Joint, drive: Drive) -> None:

@@ -12,8 +12,17 @@ from yellowiron.model.mechanism import Joint, chained
 from yellowiron.support.text import with_article
 from yellowiron.usd.authoring.metadata import describe_joint, set_custom
 from yellowiron.usd.authoring.rotation import quaternion_to
-from yellowiron.usd.authoring.stage import Types, define, set_attribute, set_display_name, set_targets
-from yellowiron.usd.layers.drives import INSTANCES, to_usd_unit, write_drive
+from yellowiron.usd.authoring.stage import (
+    Types,
+    declare_variants,
+    define,
+    over,
+    set_attribute,
+    set_display_name,
+    set_targets,
+)
+from yellowiron.usd.layers.articulation import BASES
+from yellowiron.usd.layers.drives import INSTANCES, to_usd_unit, write_drive, write_rest, write_spring
 from yellowiron.usd.planning.plan import BASE_JOINT, JOINTS, Plan
 
 PRIM_TYPES = {
@@ -51,8 +60,23 @@ def write_joints(layer: Sdf.Layer, plan: Plan) -> None:
                     hint="Drive a revolute or prismatic one.",
                 )
             write_drive(spec, joint, joint.drive)
+        if joint.spring is not None and not joint.cut:
+            write_spring(spec, joint, joint.spring)
         set_custom(spec, describe_joint(joint, floating=floating))
     _write_base_joint(layer, plan)
+    _write_rests(layer, plan)
+
+
+def _write_rests(layer: Sdf.Layer, plan: Plan) -> None:
+    """Where springs rest. What holds a machine as drawn carries less where its root is fixed: each variant of `Base`
+    has a rest of its own."""
+    sprung = [(joint, joint.spring) for joint in plan.mechanism.joints if joint.spring is not None and not joint.cut]
+    if sprung:
+        declare_variants(over(layer, plan.root), "Base", BASES)
+    for joint, spring in sprung:
+        below = plan.joint_paths[joint.name][len(plan.root) + 1 :]
+        for base in BASES:
+            write_rest(over(layer, f"{plan.root}{{Base={base}}}{below}"), joint, spring.rest_of(base))
 
 
 def _write_frames(spec: Sdf.PrimSpec, joint: Joint, plan: Plan) -> None:

@@ -17,7 +17,7 @@ from yellowiron.model.template import Follows, by_first_leader
 from yellowiron.usd.authoring.stage import Types, apply_schemas, over, set_attribute, set_targets
 from yellowiron.usd.layers.articulation import articulation_roots
 from yellowiron.usd.layers.base import shape_path, solid_paths
-from yellowiron.usd.layers.drives import speed_limit, to_usd_unit
+from yellowiron.usd.layers.drives import INSTANCES, speed_limit, to_usd_unit
 from yellowiron.usd.layers.joints import usd_type
 from yellowiron.usd.planning.plan import COLLIDERS, Plan
 
@@ -25,6 +25,11 @@ SOLREF = (0.002, 1.0)
 """Time constant (s) and damping ratio of a cut: twice a step of 1 ms, the stiffest that stays stable."""
 SOLIMP = (0.9999, 0.9999, 0.001, 0.5, 2.0)
 """As hard as MuJoCo takes it from the first micrometre on: with 0.999 there, pins err by half as much again."""
+
+STOP = (0.02, 1.0)
+"""Time constant (s) and damping ratio of an end stop, MuJoCo's own. Newton's is a spring of 10 kN/m, whatever hangs on
+it: a dump truck's loaded body sank through the ends of its cylinders, whose push is but 5 % more than its weight
+there."""
 
 DAMPED = 1e-3
 """Seconds: a position drive of a machine with loops has an inertia of its own of so many times its damping, in Newton.
@@ -57,6 +62,10 @@ def write_mujoco(layer: Sdf.Layer, base: Sdf.Layer, plan: Plan) -> None:
             _write_follows(spec, joint, by_first_leader(joint.name, follows), plan)
         else:
             _write_newton_joint(layer, joint, plan)
+        if not joint.cut and joint.type in INSTANCES and (joint.lower is not None or joint.upper is not None):
+            spec = over(layer, plan.joint_paths[joint.name])
+            apply_schemas(spec, "MjcJointAPI")
+            set_attribute(spec, "mjc:solreflimit", Types.DoubleArray, Vt.DoubleArray(STOP), uniform=True)
     for path in plan.site_paths.values():
         apply_schemas(over(layer, path), "NewtonSiteAPI")
     ruling = {name for name, m in plan.mechanism.materials.items() if m.friction_combine in RULING}
