@@ -21,6 +21,8 @@ from yellowiron.specs.machines import titled
 from yellowiron.specs.pages.picture_rules import rules_of_picture
 from yellowiron.specs.pages.words import Page, Word, read_page
 from yellowiron.specs.recognition import rapid, tesseract
+from yellowiron.specs.recognition.mending import levelled
+from yellowiron.specs.recognition.spelling import spelled
 from yellowiron.specs.recognition.straighten import straightened
 from yellowiron.specs.values.stated_configuration import Stated, stated_in
 from yellowiron.support.guard import beat
@@ -116,7 +118,7 @@ def _page(page: object, number: int, program: str) -> Page:
     if len(rules) + len(bars) < _FEWEST and not typed:
         picture = straightened(picture)
         rules = [*rules, *rules_of_picture(np.asarray(picture), scale)]
-    words = [*typed, *_beside(typed, _WORDS[program](picture, scale))]
+    words = [*typed, *_beside(typed, spelled(levelled(_WORDS[program](picture, scale))))]
     return Page(
         number,
         width,
