@@ -19,6 +19,7 @@ from yellowiron.specs.layout.router import statements_of
 from yellowiron.specs.layout.statement import Statement
 from yellowiron.specs.machines import titled
 from yellowiron.specs.pages.picture_rules import rules_of_picture
+from yellowiron.specs.pages.strokes import DrawnRule
 from yellowiron.specs.pages.words import Page, Word, read_page
 from yellowiron.specs.recognition import rapid, tesseract
 from yellowiron.specs.recognition.mending import levelled
@@ -38,6 +39,8 @@ _SHORTEST = 15.0
 """Points; shorter strokes are parts of letters that are drawn, or of a machine."""
 _OVER = 0.3
 """Share of a word's width and size by which it lies over another from which on the two are one."""
+_NEAR = 60.0
+"""Points within which words stand by a table's rule."""
 _FEWEST = 4
 """Rules and fills; a file with fewer has its tables in its pictures."""
 
@@ -115,10 +118,11 @@ def _page(page: object, number: int, program: str) -> Page:
     rules = [r for r in drawn.rules if (r.x1 - r.x0 if r.horizontal else r.bottom - r.top) >= _SHORTEST]
     bars = [b for b in drawn.bars if b[2] - b[0] >= _SHORTEST]
     typed = drawn.words if drawn.readable else ()
-    if len(rules) + len(bars) < _FEWEST and not typed:
-        picture = straightened(picture)
-        rules = [*rules, *rules_of_picture(np.asarray(picture), scale)]
+    pictured = len(rules) + len(bars) < _FEWEST and not typed
+    picture = straightened(picture) if pictured else picture
     words = [*typed, *_beside(typed, spelled(levelled(_WORDS[program](picture, scale))))]
+    if pictured:
+        rules = [*rules, *(r for r in rules_of_picture(np.asarray(picture), scale) if _is_by(r, words))]
     return Page(
         number,
         width,
@@ -129,6 +133,21 @@ def _page(page: object, number: int, program: str) -> Page:
         characters=sum(len(w.text) for w in words),
         images=1,
     )
+
+
+def _is_by(rule: DrawnRule, words: Sequence[Word]) -> bool:
+    """Whether a rule that a picture shows may be of a table: words stand by it, and it is no stroke of their letters."""
+    level, inside = rule.horizontal, 0.5
+    near = [
+        w for w in words
+        if w.x1 > rule.x0 - (0 if level else _NEAR) and w.x0 < rule.x1 + (0 if level else _NEAR)
+        and w.bottom > rule.top - (_NEAR if level else 0) and w.top < rule.bottom + (_NEAR if level else 0)
+    ]  # fmt: skip
+    within = any(
+        w.x0 + inside < rule.x0 and rule.x1 < w.x1 - inside and w.top - 2 < rule.top and rule.bottom < w.bottom + 2
+        for w in near
+    )
+    return bool(near) and not within
 
 
 def _beside(typed: Sequence[Word], seen: Sequence[Word]) -> list[Word]:

@@ -3,7 +3,8 @@
 from __future__ import annotations
 
 import itertools
-from collections.abc import Sequence
+from bisect import bisect_right
+from collections.abc import Iterator, Mapping
 from dataclasses import replace
 from itertools import pairwise
 
@@ -17,8 +18,9 @@ _LEVEL = 2.5
 """Points within which the lines of a row lie."""
 _APART = 0.3
 """Share of a cell's width that lies between a label and its value in it."""
-_FEWEST = 3
-"""Cells with a label and its value; fewer may be values with words before them."""
+_FEWEST, _MOST_OF, _ACROSS = 2, 0.5, 0.1
+"""More cells than so many, and than such a share of a column's, have words on both sides of what parts it; at most such
+a share have words across it."""
 
 
 def with_rows(grid: TableGrid) -> TableGrid:
@@ -101,10 +103,28 @@ def with_columns(grid: TableGrid) -> TableGrid:
 
 
 def with_values_apart(grid: TableGrid) -> TableGrid:
-    """The table with the cells parted that span columns and hold a label at their left and its value at their right,
-    as rows without walls under rows with them do."""
-    cells = [part for c in grid.cells for part in (_halves(c) if c.columns[1] - c.columns[0] > 1 else (c,))]
+    """The table with the cells parted that span columns and hold words on both sides of the walls of other rows, or a
+    label at their left and its value at their right, as rows without walls under rows with them do."""
+    walls = {first: c.box[0] for c in grid.cells for first in c.columns[:1]}
+    parts = [part for c in grid.cells for part in _walled(c, walls)]
+    cells = [part for c in parts for part in (_halves(c) if c.columns[1] - c.columns[0] > 1 else (c,))]
     return replace(grid, cells=tuple(cells))
+
+
+def _walled(cell: Cell, walls: Mapping[int, float]) -> Iterator[Cell]:
+    """A cell cut at the walls that its pieces leave free and stand on both sides of."""
+    (left, top, right, bottom), (first, last) = cell.box, cell.columns
+    for column in range(first + 1, last):
+        x = walls.get(column, left)
+        sides = [p.x1 <= x + 1 for p in cell.pieces]
+        if left < x < right and any(sides) and not all(sides) and not any(p.x0 < x - 1 and p.x1 > x + 1 for p in cell.pieces):
+            words = [w for p, before in zip(cell.pieces, sides, strict=True) if before for w in p.words]
+            rest = [w for p, before in zip(cell.pieces, sides, strict=True) if not before for w in p.words]
+            yield replace(cell, box=(left, top, x, bottom), columns=(first, column), lines=tuple(lines_of(words)))
+            box, columns = (x, top, right, bottom), (column, last)
+            yield from _walled(replace(cell, box=box, columns=columns, lines=tuple(lines_of(rest))), walls)
+            return
+    yield cell
 
 
 def _halves(cell: Cell) -> tuple[Cell, ...]:
@@ -126,26 +146,23 @@ def _halves(cell: Cell) -> tuple[Cell, ...]:
 
 
 def _gap(grid: TableGrid, column: int) -> float | None:
-    """Where the cells of a column are to be parted."""
+    """Where the cells of a column are to be parted: a strip with words on either side in most of them, and across it
+    in hardly any."""
     own = [c for c in grid.cells if c.columns == (column, column + 1) and c.lines]
-    several = [c for c in own if len(c.lines) == 1 and len(c.pieces) > 1]
-    labelled = [c for c in several if _label_and_value(c)]
-    valued = [c for c in several if all(kind_of(p) in ("value", "mark") for p in c.pieces)]
-    if len(labelled) >= _FEWEST and len(labelled) >= 0.8 * len(own):
-        return _between(labelled)
-    if valued and len(valued) >= 0.5 * sum(_is_valued(c) for c in own):
-        return _between(valued)
-    return None
-
-
-def _label_and_value(cell: Cell) -> bool:
-    return len(cell.pieces) == 2 and kind_of(cell.pieces[0]) == "text" and kind_of(cell.pieces[1]) == "value"
-
-
-def _between(cells: Sequence[Cell]) -> float | None:
-    """The middle of the gap between the first and the second piece of cells, which they all leave free."""
-    left, right = max(c.pieces[0].x1 for c in cells), min(c.pieces[1].x0 for c in cells)
-    return (left + right) / 2 if left < right else None
+    spans = [[(p.x0, p.x1) for p in c.pieces] for c in own if len(c.lines) == 1]
+    ends = {x1 for span in spans if len(span) > 1 for _, x1 in span}
+    starts = sorted(x0 for span in spans if len(span) > 1 for x0, _ in span)
+    best, place = max(_FEWEST, _MOST_OF * len(own)), None
+    for left in sorted(ends):
+        at = bisect_right(starts, left)
+        if at == len(starts):
+            continue
+        x = (left + starts[at]) / 2
+        both = sum(min(a for a, _ in span) < x < max(b for _, b in span) for span in spans if len(span) > 1)
+        across = sum(any(a < x < b for a, b in ((p.x0, p.x1) for p in c.pieces)) for c in own)
+        if both - across > best and across <= _ACROSS * len(own):
+            best, place = both - across, x
+    return place
 
 
 def _with_wall(grid: TableGrid, column: int, x: float) -> TableGrid:
