@@ -136,18 +136,14 @@ def _page(page: object, number: int, program: str) -> Page:
 
 
 def _is_by(rule: DrawnRule, words: Sequence[Word]) -> bool:
-    """Whether a rule that a picture shows may be of a table: words stand by it, and it is no stroke of their letters."""
-    level, inside = rule.horizontal, 0.5
-    near = [
-        w for w in words
-        if w.x1 > rule.x0 - (0 if level else _NEAR) and w.x0 < rule.x1 + (0 if level else _NEAR)
-        and w.bottom > rule.top - (_NEAR if level else 0) and w.top < rule.bottom + (_NEAR if level else 0)
-    ]  # fmt: skip
-    within = any(
-        w.x0 + inside < rule.x0 and rule.x1 < w.x1 - inside and w.top - 2 < rule.top and rule.bottom < w.bottom + 2
+    """Whether a rule that a picture shows may be of a table: words stand by it, and it is no stroke of a letter."""
+    x, y = (0.0, _NEAR) if rule.horizontal else (_NEAR, 0.0)
+    near = [w for w in words if w.x0 < rule.x1 + x and w.x1 > rule.x0 - x]
+    near = [w for w in near if w.top < rule.bottom + y and w.bottom > rule.top - y]
+    return bool(near) and not any(
+        w.x0 < rule.x0 - 0.5 and rule.x1 + 0.5 < w.x1 and w.top - 2 < rule.top and rule.bottom < w.bottom + 2
         for w in near
     )
-    return bool(near) and not within
 
 
 def _beside(typed: Sequence[Word], seen: Sequence[Word]) -> list[Word]:

@@ -8,7 +8,7 @@ from numpy.typing import NDArray
 from yellowiron.specs.pages.strokes import DrawnRule
 
 _STEP = 6
-"""Of 255 grey levels, within three points of the picture: the least step of an edge; a light band behind a row is one."""
+"""Of 255 grey levels, from a point to the third next: the least step of an edge; a light band behind a row is one."""
 _SHARE = 0.85
 """Share of an edge's points that have the step; along the tops of letters only some do."""
 _LEVEL_PT = 40.0

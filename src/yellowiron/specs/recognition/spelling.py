@@ -72,7 +72,7 @@ def _mended(word: Word) -> Word:
 
 @functools.lru_cache(maxsize=4096)
 def _near(word: str) -> str:
-    """The one known word that differs by a letter left out, doubled or taken for one like it; "" if none, or several."""
+    """The one known word that differs by a letter left out, doubled or taken for one like it; "" if none or several."""
     found = {known for known in _BY_LENGTH.get(len(word) + 1, ()) if _without_one(known, word)}
     if len(word) >= _LEAST_MENDED:
         found |= {known for known in _BY_LENGTH.get(len(word) - 1, ()) if _without_one(word, known)}

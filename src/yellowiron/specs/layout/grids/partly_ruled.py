@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import itertools
-from bisect import bisect_right
+from collections import Counter
 from collections.abc import Iterator, Mapping
 from dataclasses import replace
 from itertools import pairwise
@@ -18,9 +18,9 @@ _LEVEL = 2.5
 """Points within which the lines of a row lie."""
 _APART = 0.3
 """Share of a cell's width that lies between a label and its value in it."""
-_FEWEST, _MOST_OF, _ACROSS = 2, 0.5, 0.1
-"""More cells than so many, and than such a share of a column's, have words on both sides of what parts it; at most such
-a share have words across it."""
+_FEWEST, _MOST_OF, _ACROSS = 3, 0.5, 0.2
+"""So many cells, and such a share of a column's, have words on both sides of what parts it; at most such a share have
+words across it."""
 
 
 def with_rows(grid: TableGrid) -> TableGrid:
@@ -106,7 +106,8 @@ def with_values_apart(grid: TableGrid) -> TableGrid:
     """The table with the cells parted that span columns and hold words on both sides of the walls of other rows, or a
     label at their left and its value at their right, as rows without walls under rows with them do."""
     walls = {first: c.box[0] for c in grid.cells for first in c.columns[:1]}
-    parts = [part for c in grid.cells for part in _walled(c, walls)]
+    often = Counter(c.columns for c in grid.cells if len(c.pieces) > 1)
+    parts = [part for c in grid.cells for part in (_walled(c, walls) if often[c.columns] >= _FEWEST else (c,))]
     cells = [part for c in parts for part in (_halves(c) if c.columns[1] - c.columns[0] > 1 else (c,))]
     return replace(grid, cells=tuple(cells))
 
@@ -116,13 +117,13 @@ def _walled(cell: Cell, walls: Mapping[int, float]) -> Iterator[Cell]:
     (left, top, right, bottom), (first, last) = cell.box, cell.columns
     for column in range(first + 1, last):
         x = walls.get(column, left)
-        sides = [p.x1 <= x + 1 for p in cell.pieces]
-        if left < x < right and any(sides) and not all(sides) and not any(p.x0 < x - 1 and p.x1 > x + 1 for p in cell.pieces):
-            words = [w for p, before in zip(cell.pieces, sides, strict=True) if before for w in p.words]
-            rest = [w for p, before in zip(cell.pieces, sides, strict=True) if not before for w in p.words]
-            yield replace(cell, box=(left, top, x, bottom), columns=(first, column), lines=tuple(lines_of(words)))
-            box, columns = (x, top, right, bottom), (column, last)
-            yield from _walled(replace(cell, box=box, columns=columns, lines=tuple(lines_of(rest))), walls)
+        before = [p for p in cell.pieces if p.x1 <= x + 1]
+        after = [p for p in cell.pieces if p.x0 >= x - 1]
+        if left < x < right and before and after and len(before) + len(after) == len(cell.pieces):
+            lines = [tuple(lines_of([w for p in part for w in p.words])) for part in (before, after)]
+            yield replace(cell, box=(left, top, x, bottom), columns=(first, column), lines=lines[0])
+            rest = replace(cell, box=(x, top, right, bottom), columns=(column, last), lines=lines[1])
+            yield from _walled(rest, walls)
             return
     yield cell
 
@@ -146,23 +147,19 @@ def _halves(cell: Cell) -> tuple[Cell, ...]:
 
 
 def _gap(grid: TableGrid, column: int) -> float | None:
-    """Where the cells of a column are to be parted: a strip with words on either side in most of them, and across it
-    in hardly any."""
+    """Where the cells of a column are to be parted: a strip with a value right of it and words left in most of them,
+    and words across it in few."""
     own = [c for c in grid.cells if c.columns == (column, column + 1) and c.lines]
-    spans = [[(p.x0, p.x1) for p in c.pieces] for c in own if len(c.lines) == 1]
-    ends = {x1 for span in spans if len(span) > 1 for _, x1 in span}
-    starts = sorted(x0 for span in spans if len(span) > 1 for x0, _ in span)
-    best, place = max(_FEWEST, _MOST_OF * len(own)), None
-    for left in sorted(ends):
-        at = bisect_right(starts, left)
-        if at == len(starts):
-            continue
-        x = (left + starts[at]) / 2
-        both = sum(min(a for a, _ in span) < x < max(b for _, b in span) for span in spans if len(span) > 1)
-        across = sum(any(a < x < b for a, b in ((p.x0, p.x1) for p in c.pieces)) for c in own)
-        if both - across > best and across <= _ACROSS * len(own):
-            best, place = both - across, x
-    return place
+    several = [c.pieces for c in own if len(c.lines) == 1 and len(c.pieces) > 1]
+    pairs = [pair for pieces in several for pair in pairwise(pieces) if kind_of(pair[1]) in ("value", "mark")]
+    least = max(_FEWEST, _MOST_OF * len(own))
+    for left in sorted({a.x1 for a, _ in pairs}):
+        beside = [(a.x1, b.x0) for a, b in pairs if a.x1 <= left < b.x0]
+        x = (left + min((b for _, b in beside), default=left)) / 2
+        across = sum(any(p.x0 < x < p.x1 for p in c.pieces) for c in own)
+        if len(beside) - across >= least and across <= _ACROSS * len(own):
+            return x
+    return None
 
 
 def _with_wall(grid: TableGrid, column: int, x: float) -> TableGrid:
