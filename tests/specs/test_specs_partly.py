@@ -58,6 +58,22 @@ def test_rows_that_no_rule_parts_have_a_line_in_every_cell(tmp_path: Path) -> No
     assert found(tmp_path / "a.pdf", "MW 120") == ok(_SECOND)
 
 
+def test_walls_of_some_rows_hold_in_those_that_lack_them(tmp_path: Path) -> None:
+    """As where a picture's faint walls are lost; the numbers that count the rows are no values, though one is lost."""
+    c = canvas(tmp_path / "a.pdf")
+    rows = [*_ROWS, *((f"Other measure {n}", f"{10 * n}1", f"{10 * n}2") for n in range(11, 18))]
+    c.line(40, 752, 440, 752)
+    for i, (label, _, value) in enumerate(rows):
+        y = 740 - 16 * i
+        for x, text in ((44, label), (205, str(i + 1) if i != 6 else ""), (250, "mm"), (355, value)):
+            put(c, x, y, text)
+        c.line(40, y - 5, 440, y - 5)
+        for x in (40, 190, 440) if i > 3 else (40, 190, 230, 320, 440):
+            c.line(x, y - 5, x, y + 11)
+    c.save()
+    assert found(tmp_path / "a.pdf") == ok(_SECOND)
+
+
 def test_columns_that_no_wall_parts_stand_under_their_heads(tmp_path: Path) -> None:
     c = canvas(tmp_path / "a.pdf")
     fill(c, 40, 760, 400, 16, 0.85)

@@ -26,6 +26,16 @@ def test_rules_and_fills_of_a_picture() -> None:
     assert wall.bottom - wall.top == pytest.approx(100.0, abs=2.0)
 
 
+def test_faint_bands_are_rules_and_the_tops_of_letters_none() -> None:
+    picture = np.full((400, 900), 247, np.uint8)
+    picture[100:140, 60:860] = 239  # a band that is hardly seen
+    for x in range(80, 840, 14):
+        picture[200:216, x : x + 7] = 20  # letters in a row: an edge along half of their tops
+    level = [r for r in rules_of_picture(picture, 2.0) if r.horizontal]
+    assert sorted({round(r.top) for r in level}) == [50, 70]
+    assert all(r.x0 == pytest.approx(30.0, abs=2.0) and r.x1 == pytest.approx(430.0, abs=2.0) for r in level)
+
+
 def test_a_photograph_has_no_rules() -> None:
     picture = np.random.default_rng(7).integers(0, 255, (900, 1300), dtype=np.uint8)
     picture = np.repeat(np.repeat(picture[:90, :13], 10, axis=0), 100, axis=1)
@@ -33,7 +43,18 @@ def test_a_photograph_has_no_rules() -> None:
 
 
 @pytest.mark.parametrize(
-    ("seen", "meant"), [(".265", "265"), ("kgf/cm?", "kgf/cm2"), ("power...", "power"), ("2.5", "2.5")]
+    ("seen", "meant"),
+    [
+        (".265", "265"),
+        ("kgf/cm?", "kgf/cm2"),
+        ("power...", "power"),
+        ("2.5", "2.5"),
+        ("m?", "m²"),
+        ("(/min.)", "(l/min.)"),
+        ("Ipm", "lpm"),
+        ("Ib", "lb"),
+        ("Ibaka", "Ibaka"),
+    ],
 )
 def test_words_as_they_are_misread(seen: str, meant: str) -> None:
     assert mended(seen) == meant

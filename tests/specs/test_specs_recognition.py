@@ -15,8 +15,9 @@ from yellowiron.specs import extraction, ocr
 from yellowiron.specs.layout.statement import Statement, looks_like_value
 from yellowiron.specs.ocr import Recognised, with_cubes
 from yellowiron.specs.pages.words import Word
-from yellowiron.specs.recognition.mending import without_leaders
+from yellowiron.specs.recognition.mending import levelled, without_leaders
 from yellowiron.specs.recognition.rapid import words_of_line
+from yellowiron.specs.recognition.spelling import spelled
 from yellowiron.specs.recognition.straighten import straightened
 
 FONT = ImageFont.load_default(30)
@@ -55,6 +56,34 @@ def test_a_page_askew_is_turned_and_a_level_one_is_left() -> None:
 
 def word(text: str) -> Word:
     return Word(text, 0.0, 10.0, 10.0, 8.0)
+
+
+@pytest.mark.parametrize(
+    ("seen", "meant"),
+    [
+        ("ANGULODEROTACION", "ANGULO DE ROTACION"),
+        ("Max.SteeringAngle:", "Max. Steering Angle:"),
+        ("Breakoutforce", "Breakout force"),
+        ("ength", "length"),
+        ("Weiqht", "weight"),
+        ("Hubzylinder", "Hubzylinder"),
+        ("Tower", "Tower"),
+        ("C175-16", "C175-16"),
+    ],
+)
+def test_words_run_together_are_cut_and_a_missed_letter_is_put_back(seen: str, meant: str) -> None:
+    found = spelled([word(seen)])
+    assert " ".join(w.text for w in found) == meant
+    assert (found[0].x0, found[-1].x1) == (0.0, 10.0)
+
+
+def test_a_row_has_one_baseline_and_its_letters_one_size() -> None:
+    row = [Word("Boom length", 0, 50, 100.0, 8.0), Word("3720", 90, 110, 102.4, 7.4), Word("mm", 120, 130, 101.0, 8.6)]
+    under = Word("Arm length", 0, 50, 112.0, 8.0)
+    title = Word("TITLE", 0, 90, 60.0, 20.0)
+    found = levelled([*row, under, title])
+    assert {w.baseline for w in found if w.text != "TITLE" and w.text != "Arm length"} == {101.0}
+    assert {w.size for w in found} == {8.0, 20.0}
 
 
 def test_what_is_left_of_leaders_is_no_decimal_point() -> None:

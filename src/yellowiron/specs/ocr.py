@@ -19,8 +19,11 @@ from yellowiron.specs.layout.router import statements_of
 from yellowiron.specs.layout.statement import Statement
 from yellowiron.specs.machines import titled
 from yellowiron.specs.pages.picture_rules import rules_of_picture
+from yellowiron.specs.pages.strokes import DrawnRule
 from yellowiron.specs.pages.words import Page, Word, read_page
 from yellowiron.specs.recognition import rapid, tesseract
+from yellowiron.specs.recognition.mending import levelled
+from yellowiron.specs.recognition.spelling import spelled
 from yellowiron.specs.recognition.straighten import straightened
 from yellowiron.specs.values.stated_configuration import Stated, stated_in
 from yellowiron.support.guard import beat
@@ -36,6 +39,8 @@ _SHORTEST = 15.0
 """Points; shorter strokes are parts of letters that are drawn, or of a machine."""
 _OVER = 0.3
 """Share of a word's width and size by which it lies over another from which on the two are one."""
+_NEAR = 60.0
+"""Points within which words stand by a table's rule."""
 _FEWEST = 4
 """Rules and fills; a file with fewer has its tables in its pictures."""
 
@@ -113,10 +118,11 @@ def _page(page: object, number: int, program: str) -> Page:
     rules = [r for r in drawn.rules if (r.x1 - r.x0 if r.horizontal else r.bottom - r.top) >= _SHORTEST]
     bars = [b for b in drawn.bars if b[2] - b[0] >= _SHORTEST]
     typed = drawn.words if drawn.readable else ()
-    if len(rules) + len(bars) < _FEWEST and not typed:
-        picture = straightened(picture)
-        rules = [*rules, *rules_of_picture(np.asarray(picture), scale)]
-    words = [*typed, *_beside(typed, _WORDS[program](picture, scale))]
+    pictured = len(rules) + len(bars) < _FEWEST and not typed
+    picture = straightened(picture) if pictured else picture
+    words = [*typed, *_beside(typed, spelled(levelled(_WORDS[program](picture, scale))))]
+    if pictured:
+        rules = [*rules, *(r for r in rules_of_picture(np.asarray(picture), scale) if _is_by(r, words))]
     return Page(
         number,
         width,
@@ -126,6 +132,17 @@ def _page(page: object, number: int, program: str) -> Page:
         tuple(bars),
         characters=sum(len(w.text) for w in words),
         images=1,
+    )
+
+
+def _is_by(rule: DrawnRule, words: Sequence[Word]) -> bool:
+    """Whether a rule that a picture shows may be of a table: words stand by it, and it is no stroke of a letter."""
+    x, y = (0.0, _NEAR) if rule.horizontal else (_NEAR, 0.0)
+    near = [w for w in words if w.x0 < rule.x1 + x and w.x1 > rule.x0 - x]
+    near = [w for w in near if w.top < rule.bottom + y and w.bottom > rule.top - y]
+    return bool(near) and not any(
+        w.x0 < rule.x0 - 0.5 and rule.x1 + 0.5 < w.x1 and w.top - 2 < rule.top and rule.bottom < w.bottom + 2
+        for w in near
     )
 
 

@@ -288,6 +288,19 @@ def squeezed(text: str) -> str:
     return "".join(c for c in unicodedata.normalize("NFKC", text).casefold() if c.isalnum())
 
 
+def _spellings() -> frozenset[str]:
+    """Every Latin word of the two files, folded."""
+    lexicon = [line for part in _LEXICON.values() if isinstance(part, dict) for pair in part.items() for line in pair]
+    lists = [line for part in _DATA.values() if isinstance(part, list) for line in part]
+    text = " ".join([*lexicon, *lists, *_DATA["cjk"], *(line for pair in _DATA["alias"].items() for line in pair)])
+    return frozenset(_fold(word) for word in re.findall(r"[a-z]{2,}", text))
+
+
+SPELLINGS = _spellings()
+"""Words that are known in whatever language, folded as `folded` does."""
+folded = _fold
+
+
 def names_a_part(text: str) -> bool:
     """Whether words name a part of a machine, and no property of one: "Blade"."""
     words = frozenset(tokens(text))

@@ -163,9 +163,10 @@ def ascending(keys: Sequence[str]) -> bool:
     return all(a < b for a, b in pairwise(numbers))
 
 
-def counting(keys: Sequence[str]) -> bool:
-    """Whether numbers go up one by one: they count the rows beside them."""
-    return all(int(b) - int(a) == 1 for a, b in pairwise(keys)) if all(map(str.isdecimal, keys)) else False
+def counting(keys: Sequence[str], share: float = 1.0) -> bool:
+    """Whether numbers go up, one by one or nearly (a `share` of the steps): they count the rows beside them."""
+    steps = [int(b) - int(a) for a, b in pairwise(keys)] if all(map(str.isdecimal, keys)) else [0]
+    return steps.count(1) >= share * len(steps) and all(step > 0 for step in steps)
 
 
 @functools.lru_cache(maxsize=65536)

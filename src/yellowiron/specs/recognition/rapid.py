@@ -29,7 +29,10 @@ _SPACE = 0.26
 """Gap between two letters, as a share of the height of a capital, from which on they are of two words."""
 _CAP = 0.72
 """Height of a capital letter or digit as a share of the size of its font."""
+_X_HEIGHT = 0.52
+"""The same of a small letter such as x."""
 _LOW = set("gjpqyQ,;()[]{}|/")
+_SMALL = set("acegijmnopqrsuvwxyz")
 _IN_NUMBERS = set("0123456789.,")
 
 
@@ -72,7 +75,8 @@ def words_of_line(
     columns = np.flatnonzero(ink[first : last + 1].any(axis=0))
     if not len(columns):
         return []
-    capital = last + 1 - first
+    small = all(c in _SMALL for c, _ in letters if c.isalnum())
+    capital = (last + 1 - first) * (_CAP / _X_HEIGHT if small else 1.0)
     gaps = [(int(a) + 1, int(b)) for a, b in itertools.pairwise(columns) if b - a > 1]
     runs: list[tuple[list[str], float, float]] = [([], float(columns[0]), float(columns[-1]) + 1)]
     spaced = False
@@ -120,6 +124,7 @@ def _letter_rows(ink: NDArray[np.bool_], letters: Sequence[tuple[str, float]]) -
             standing[max(0, int(at) - half) : int(at) + half + 1] = True
     least = max(1, int(0.02 * standing.sum()))
     rows = np.flatnonzero(ink[:, standing].sum(axis=1) > least) if standing.any() else np.empty(0, int)
+    rows = max(np.split(rows, np.flatnonzero(np.diff(rows) > 1) + 1), key=len)  # the lines above and below are others
     if len(rows) < 0.3 * len(ink):
         rows = np.flatnonzero(ink.any(axis=1))
     return (int(rows[0]), int(rows[-1])) if len(rows) else (0, len(ink) - 1)

@@ -149,7 +149,8 @@ def _filled_in(claims: Sequence[Claim], side: Side) -> list[Claim]:
     for claim in claims:
         unsaid = _SAID_BY_UNIT.get(claim.quantity.dimension) if side == "cell" else None
         found.append(replace(claim, words=f"{claim.words} {unsaid}") if unsaid else claim)
-        if not claim.quantity.unit and not claim.quantity.sign and (side != "cell" or claim.quantity.value >= 10.0):
+        bare = not claim.quantity.unit and claim.quantity.sign in ("", "±") and "%" not in claim.statement.text
+        if bare and (side != "cell" or claim.quantity.value >= 10.0):
             units = [unit for group in _UNITS.values() for unit in group]
             found += [replace(claim, quantity=replace(claim.quantity, unit=unit)) for unit in units]
     return found

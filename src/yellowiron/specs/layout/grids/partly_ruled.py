@@ -3,7 +3,8 @@
 from __future__ import annotations
 
 import itertools
-from collections.abc import Sequence
+from collections import Counter
+from collections.abc import Iterator, Mapping
 from dataclasses import replace
 from itertools import pairwise
 
@@ -15,10 +16,9 @@ from yellowiron.specs.layout.statement import is_unit, kind_of, looks_like_value
 
 _LEVEL = 2.5
 """Points within which the lines of a row lie."""
-_APART = 0.3
-"""Share of a cell's width that lies between a label and its value in it."""
-_FEWEST = 3
-"""Cells with a label and its value; fewer may be values with words before them."""
+_FEWEST, _MOST_OF, _ACROSS = 3, 0.5, 0.2
+"""So many cells, and such a share of a column's, have words on both sides of what parts it; at most such a share have
+words across it."""
 
 
 def with_rows(grid: TableGrid) -> TableGrid:
@@ -101,51 +101,44 @@ def with_columns(grid: TableGrid) -> TableGrid:
 
 
 def with_values_apart(grid: TableGrid) -> TableGrid:
-    """The table with the cells parted that span columns and hold a label at their left and its value at their right,
-    as rows without walls under rows with them do."""
-    cells = [part for c in grid.cells for part in (_halves(c) if c.columns[1] - c.columns[0] > 1 else (c,))]
-    return replace(grid, cells=tuple(cells))
+    """The table with the cells parted that span columns, as others do, and hold words on both sides of the walls of
+    other rows."""
+    walls = {c.columns[0]: c.box[0] for c in grid.cells}
+    often = Counter(c.columns for c in grid.cells if len(c.pieces) > 1)
+    parts = [_walled(c, walls) if often[c.columns] >= _FEWEST else (c,) for c in grid.cells]
+    return replace(grid, cells=tuple(itertools.chain.from_iterable(parts)))
 
 
-def _halves(cell: Cell) -> tuple[Cell, ...]:
-    pieces = sorted(cell.pieces, key=lambda p: p.x0)
-    ends = list(itertools.accumulate((p.x1 for p in pieces), max))
-    gaps = [(after.x0 - end, index + 1) for index, (end, after) in enumerate(zip(ends, pieces[1:], strict=False))]
+def _walled(cell: Cell, walls: Mapping[int, float]) -> Iterator[Cell]:
+    """A cell cut at the walls that its pieces leave free and stand on both sides of."""
     (left, top, right, bottom), (first, last) = cell.box, cell.columns
-    wide, at = max(gaps, default=(0.0, 0))
-    if wide < _APART * (right - left) or not all(kind_of(p) == "text" for p in pieces[:at]):
-        return (cell,)
-    if not any(looks_like_value(p.bare) for p in pieces[at:]):
-        return (cell,)
-    x = (ends[at - 1] + pieces[at].x0) / 2
-    sides = ((left, top, x, bottom), (first, first + 1)), ((x, top, right, bottom), (first + 1, last))
-    return tuple(
-        replace(cell, box=box, columns=columns, lines=tuple(lines_of([w for p in part for w in p.words])))
-        for (box, columns), part in zip(sides, (pieces[:at], pieces[at:]), strict=True)
-    )
+    for column in range(first + 1, last):
+        x = walls.get(column, left)
+        before = [p for p in cell.pieces if p.x1 <= x + 1]
+        after = [p for p in cell.pieces if p.x0 >= x - 1]
+        if left < x < right and before and after and len(before) + len(after) == len(cell.pieces):
+            lines = [tuple(lines_of([w for p in part for w in p.words])) for part in (before, after)]
+            yield replace(cell, box=(left, top, x, bottom), columns=(first, column), lines=lines[0])
+            rest = replace(cell, box=(x, top, right, bottom), columns=(column, last), lines=lines[1])
+            yield from _walled(rest, walls)
+            return
+    yield cell
 
 
 def _gap(grid: TableGrid, column: int) -> float | None:
-    """Where the cells of a column are to be parted."""
+    """Where the cells of a column are to be parted: a strip with a value right of it and words left in most of them,
+    and words across it in few."""
     own = [c for c in grid.cells if c.columns == (column, column + 1) and c.lines]
-    several = [c for c in own if len(c.lines) == 1 and len(c.pieces) > 1]
-    labelled = [c for c in several if _label_and_value(c)]
-    valued = [c for c in several if all(kind_of(p) in ("value", "mark") for p in c.pieces)]
-    if len(labelled) >= _FEWEST and len(labelled) >= 0.8 * len(own):
-        return _between(labelled)
-    if valued and len(valued) >= 0.5 * sum(_is_valued(c) for c in own):
-        return _between(valued)
+    several = [c.pieces for c in own if len(c.lines) == 1 and len(c.pieces) > 1]
+    pairs = [pair for pieces in several for pair in pairwise(pieces) if kind_of(pair[1]) in ("value", "mark")]
+    least = max(_FEWEST, _MOST_OF * len(own))
+    for left in sorted({a.x1 for a, _ in pairs}):
+        beside = [(a.x1, b.x0) for a, b in pairs if a.x1 <= left < b.x0]
+        x = (left + min((b for _, b in beside), default=left)) / 2
+        across = sum(any(p.x0 < x < p.x1 for p in c.pieces) for c in own)
+        if len(beside) - across >= least and across <= _ACROSS * len(own):
+            return x
     return None
-
-
-def _label_and_value(cell: Cell) -> bool:
-    return len(cell.pieces) == 2 and kind_of(cell.pieces[0]) == "text" and kind_of(cell.pieces[1]) == "value"
-
-
-def _between(cells: Sequence[Cell]) -> float | None:
-    """The middle of the gap between the first and the second piece of cells, which they all leave free."""
-    left, right = max(c.pieces[0].x1 for c in cells), min(c.pieces[1].x0 for c in cells)
-    return (left + right) / 2 if left < right else None
 
 
 def _with_wall(grid: TableGrid, column: int, x: float) -> TableGrid:

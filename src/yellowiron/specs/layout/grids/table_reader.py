@@ -212,7 +212,7 @@ def _without_keys(grid: TableGrid) -> TableGrid:
         few = len(own) // MANY
         if len(own) < 3 or len(own) < len(cells) - 1 or twice > (0 if numbers else few) or all(map(is_unit, texts)):
             continue
-        counted = len(own) >= MANY and counting(texts)
+        counted = len(own) >= MANY and counting(texts, 0.9)
         placed = counted or all(_begins(grid, c) for c in own)
         if numbers and not (placed and ascending(texts) and all(_worded(grid, c, counted=counted) for c in own)):
             continue
