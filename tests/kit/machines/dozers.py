@@ -73,7 +73,7 @@ class Dozer(Digger):
         self.hull, self.wide = 0.42 * u(0.97, 1.03), 1.6 * self.pin_r / s
         self.lug_y = (self.eye_w / 2 + self.gap + self.t / 2) / s
         self.half_blade = (1.62 if not self.arms else 1.72) * u(0.96, 1.08)
-        self.tall = 1.2 * u(0.9, 1.15)
+        self.tall = 1.2 * u(0.9, 1.15) if self.arms else 1.36 * u(0.97, 1.1)
         self.P: dict[str, Array] = {}
 
     # ---- tracks ----
@@ -81,7 +81,7 @@ class Dozer(Digger):
         if not self.high:
             return super().loop()
         half, r = 0.5 * self.straight * self.pitch, self.pitch_r
-        low, over = self.sprocket_up * self.s, self.sprocket_up * self.s + 0.6 * self.pitch
+        low, over = self.sprocket_up * self.s, self.sprocket_up * self.s + 3.0 * self.pitch
         count = round(self._around(half, r, low)[1] / self.pitch) + 1
         for _ in range(60):
             middle = 0.5 * (low + over)
