@@ -235,8 +235,9 @@ class Dozer(Digger):
         s, e, body, m, f = self.s, self.e / self.s, "c_frame", self.m, self.front
         t, gap = self.t / s, self.gap / s
         y = self.hull + gap + t / 2
+        y_lift = self.lift_y = self.hull + gap + 0.01 + self.lug_y + t / 2
         ball = (f + 0.5, 0.56)
-        self.lift_foot(y, 1.06, 0.25)
+        self.lift_foot(y_lift, 1.06, 0.25)
         for side, _ in SIDES:
             self.block("lift stay", self.carrier, *self._sorted((self.foot[0] - 0.1, side * (self.hull - t), 0.99 - e),
                                                                 (self.foot[0], side * self.hull, 1.0 + e)))  # fmt: skip
@@ -248,13 +249,13 @@ class Dozer(Digger):
         for side, letter in SIDES:
             arm = [(*self.pivot, 1.4 * self.wide), (1.0, low, 0), (f + 0.28, low, 0), (f + 0.28, high, 0), (1.0, high, 0)]
             self.wall("arm", body, side * y, arm, self.pivot)
-            span = self._sorted((eye[0] - 0.12, side * (y - self.lug_y - t / 2), high - e),
-                                (eye[0] + 0.12, side * (y + self.lug_y + t / 2), high + 0.04))  # fmt: skip
+            span = self._sorted((eye[0] - 0.12, side * (y_lift - self.lug_y - t / 2), high - e),
+                                (eye[0] + 0.12, side * (y_lift + self.lug_y + t / 2), high + 0.04))  # fmt: skip
             self.block("lug foot", body, *span)
             top = high + 0.04 - e
-            self.lugs("lift rod lug", body, side * y, eye, (eye[0] - 0.1, top), (eye[0] + 0.1, top))
-            self.level_pin(f"lift_piston_rod_{letter}_c_frame_pin", body, eye, side * y)
-            rods[letter] = self.world(eye[0], side * y, eye[1])
+            self.lugs("lift rod lug", body, side * y_lift, eye, (eye[0] - 0.1, top), (eye[0] + 0.1, top))
+            self.level_pin(f"lift_piston_rod_{letter}_c_frame_pin", body, eye, side * y_lift)
+            rods[letter] = self.world(eye[0], side * y_lift, eye[1])
             at, face = (0.55 * f, side * (y + t / 2 + 0.11)), side * (y + t / 2 - e)
             self.shelves("angle lug", body, 0.54, at, (at[0] - 0.1, face), (at[0] + 0.1, face))
             self.upright_pin(f"angle_cylinder_barrel_{letter}_pin", body, at, 0.54)
@@ -330,7 +331,7 @@ class Dozer(Digger):
             halves = (f"angle_cylinder_barrel_{letter}", f"angle_piston_rod_{letter}")
             self.cylinder(f"angle {letter}", *halves, feet[letter], eyes[letter], up, 0.04 * s)
             m.pose = np.eye(4)
-            self.lift(letter, side, self.hull + (self.gap + self.t / 2) / s, rods[letter])
+            self.lift(letter, side, self.lift_y, rods[letter])
 
     def mouldboard(self, back: float) -> None:
         """A curved face of four plates, a back plate, ribs between, edge and end bits; wings where it has some."""

@@ -176,14 +176,31 @@ def between_twins(template: Template) -> list[tuple[str, str, str]]:
 
 def told_by_length(template: Template) -> list[tuple[str, str]]:
     """Barrels, and rods, of two cylinders between the same two bodies of which one usually is clearly longer, that one
-    first."""
+    first; and links between the same two bodies, no two of which are each other's twins."""
     usual, found = template.usual, []
-    for names in _hung_alike(template):
-        if len(names) == 2 and all(name in usual and twin_role(name) is None for name in names):
+    alike = [names for names in _hung_alike(template) if all(twin_role(name) is None for name in names)]
+    for names in (*alike, *_linked_alike(template)):
+        if len(names) == 2 and all(name in usual for name in names):
             short, long = sorted(names, key=lambda name: usual[name].length)
             if usual[long].length > LONGER * usual[short].length:
                 found.append((long, short))
     return found
+
+
+def _linked_alike(template: Template) -> list[list[str]]:
+    """Links that hang on the same two bodies and on nothing else, on one side, whatever their joints: a push arm's yoke
+    and its brace."""
+    kinds, beside = {r.name: r.kind for r in template.roles if r.rigid}, dict[str, list[str]]()
+    for joint in template.joints:
+        a, b = template.bodies_of(joint)
+        if a in kinds and b in kinds:
+            beside.setdefault(str(a), []).append(str(b))
+            beside.setdefault(str(b), []).append(str(a))
+    held: dict[frozenset[str], list[str]] = {}
+    for name, others in sorted(beside.items()):
+        if not kinds[name] and len(others) == len(set(others)) == 2 and not END.search(name):
+            held.setdefault(frozenset(others), []).append(name)
+    return [names for names in held.values() if not {twin_role(name) for name in names} & set(names)]
 
 
 def _hung_alike(template: Template) -> list[list[str]]:
