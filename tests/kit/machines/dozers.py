@@ -1,5 +1,6 @@
-"""Parametric dozers straight as `Assembly` objects, with the truth: a blade on a C-frame (straight or angled) or on push
-arms (straight or with wings, tilted by one cylinder or two), oval tracks or high sprockets, a radial ripper or none.
+"""Parametric dozers straight as `Assembly` objects, with the truth: a blade on a C-frame (straight or angled) or on
+push arms (straight or with wings, tilted by one cylinder or two), oval tracks or high sprockets, a radial ripper or
+none.
 
 Every dimension is drawn from a seed, by none of the example's code; simplified as the synthetic loaders are. Lengths
 are in machine sizes; the tracks are those of the drawn excavators.
@@ -7,6 +8,7 @@ are in machine sizes; the tracks are those of the drawn excavators.
 
 from __future__ import annotations
 
+import itertools
 import math
 from dataclasses import replace
 
@@ -45,7 +47,9 @@ def sphere_arc(radius: float, start: float, end: float) -> list[tuple[float, flo
     """Corners of a circle about the origin (radius, height), between two angles from its foot."""
     count = max(3, round(abs(end - start) / (math.pi / 16)))
     turns = np.linspace(start, end, count + 1)
-    return [(max(0.0, radius * math.sin(a)) if 1e-9 < a < math.pi - 1e-9 else 0.0, -radius * math.cos(a)) for a in turns]
+    return [
+        (max(0.0, radius * math.sin(a)) if 1e-9 < a < math.pi - 1e-9 else 0.0, -radius * math.cos(a)) for a in turns
+    ]
 
 
 class Dozer(Digger):
@@ -104,7 +108,9 @@ class Dozer(Digger):
             turns = np.linspace(start, end, 1500)
             line.append(wheel + r * np.stack([np.cos(turns), np.sin(turns)], axis=1))
             if k < 2:
-                line.append(np.linspace(line[-1][-1], wheels[k + 1] + r * np.array([math.cos(end), math.sin(end)]), 500))
+                line.append(
+                    np.linspace(line[-1][-1], wheels[k + 1] + r * np.array([math.cos(end), math.sin(end)]), 500)
+                )
             start = end
         points = np.concatenate(line)
         return points, float(np.linalg.norm(np.diff(points, axis=0), axis=1).sum())
@@ -135,13 +141,17 @@ class Dozer(Digger):
         """Where a point of what is drawn now is."""
         return np.asarray((self.m.pose @ np.array([*self.spot(*at), 1.0]))[:3])
 
-    def wall(self, name: str, body: str, y: float, circles: list[tuple[float, ...]], *holes: tuple[float, float]) -> None:
+    def wall(
+        self, name: str, body: str, y: float, circles: list[tuple[float, ...]], *holes: tuple[float, float]
+    ) -> None:
         """An upright plate fore and aft, its outline around circles (x, z, radius or 0)."""
         outline = around(*((self.s * x, self.s * z, self.s * r) for x, z, r in circles))
         bores = [(self.s * x, self.s * z, self.bore_r) for x, z in holes]
         self.m.add(name, body, body, plate(f"{name}_{y:.3f}", outline, self.t, bores), place((0, self.s * y, 0), XZ, X))
 
-    def shelf(self, name: str, body: str, z: float, circles: list[tuple[float, ...]], *holes: tuple[float, float]) -> None:
+    def shelf(
+        self, name: str, body: str, z: float, circles: list[tuple[float, ...]], *holes: tuple[float, float]
+    ) -> None:
         """A level plate, its outline around circles (x, y, radius or 0)."""
         outline = around(*((self.s * x, self.s * y, self.s * r) for x, y, r in circles))
         bores = [(self.s * x, self.s * y, self.bore_r) for x, y in holes]
@@ -247,7 +257,13 @@ class Dozer(Digger):
         low, high = 0.44, 0.64
         rods, feet = {}, {}
         for side, letter in SIDES:
-            arm = [(*self.pivot, 1.4 * self.wide), (1.0, low, 0), (f + 0.28, low, 0), (f + 0.28, high, 0), (1.0, high, 0)]
+            arm = [
+                (*self.pivot, 1.4 * self.wide),
+                (1.0, low, 0),
+                (f + 0.28, low, 0),
+                (f + 0.28, high, 0),
+                (1.0, high, 0),
+            ]
             self.wall("arm", body, side * y, arm, self.pivot)
             span = self._sorted((eye[0] - 0.12, side * (y_lift - self.lug_y - t / 2), high - e),
                                 (eye[0] + 0.12, side * (y_lift + self.lug_y + t / 2), high + 0.04))  # fmt: skip
@@ -344,7 +360,7 @@ class Dozer(Digger):
             shape = plate(f"{name}_{low:.2f}_{high:.2f}_{corners[0][1]:.2f}", outline, (high - low) * s)
             m.add(name, role, body, shape, place((0, 0.5 * (low + high) * s, 0), XZ, X))
 
-        for (x, z), (p, q) in zip(face, face[1:], strict=False):
+        for (x, z), (p, q) in itertools.pairwise(face):
             across("mouldboard", body, [(x, z), (p, q), (p - 0.045, q), (x - 0.045, z)], -half, half)
         across("back plate", body, [(back, 0.2), (back + 0.03, 0.2), (back + 0.03, tall - 0.05), (back, tall - 0.05)],
                0.12 - half, half - 0.12)  # fmt: skip
@@ -402,7 +418,9 @@ class Dozer(Digger):
         top = (back - 0.09, 0.93)
         rods = {}
         for side, letter in SIDES:
-            self.shelves("yoke lug", body, fork[1], (king, side * ya), (back + e, side * ya - 0.08), (back + e, side * ya + 0.08))
+            self.shelves(
+                "yoke lug", body, fork[1], (king, side * ya), (back + e, side * ya - 0.08), (back + e, side * ya + 0.08)
+            )
             self.upright_pin(f"push_arm_yoke_{letter}_blade_pin", body, (king, side * ya), fork[1])
             self.lugs("brace rod lug", body, side * ya, top, (back + e, top[1] - 0.08), (back + e, top[1] + 0.08))
             start, tilts = ends[letter]
@@ -411,7 +429,12 @@ class Dozer(Digger):
             eye = (back - 0.09, 0.72)
             self.lugs("lift rod lug", body, side * y_lift, eye, (back + e, eye[1] - 0.08), (back + e, eye[1] + 0.08))
             self.level_pin(f"lift_piston_rod_{letter}_blade_pin", body, eye, side * y_lift)
-            rods[letter] = (start, self.world(top[0], side * ya, top[1]), tilts, self.world(eye[0], side * y_lift, eye[1]))
+            rods[letter] = (
+                start,
+                self.world(top[0], side * ya, top[1]),
+                tilts,
+                self.world(eye[0], side * y_lift, eye[1]),
+            )
             if not tilts:
                 kept, shift = m.pose, np.eye(4)
                 shift[1, 3] = side * ya * s

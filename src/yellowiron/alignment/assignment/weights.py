@@ -290,9 +290,9 @@ def side_weights(
 
     between = between_twins(template)
     for trio in between:
-        there = [cluster_of[name] for name in trio if name in cluster_of]
-        ranks = _ranks_of_trio([(place(c), along(c)) for c in there])
-        _told(sided, trio, cluster_of, dict(zip(there, ranks, strict=True)).__getitem__)
+        three = [cluster_of[name] for name in trio if name in cluster_of]
+        ranks = _ranks_of_trio([(place(c), along(c)) for c in three])
+        _told(sided, trio, cluster_of, dict(zip(three, ranks, strict=True)).__getitem__)
     for pair in told_by_length(template):
         _told(sided, pair, cluster_of, lambda cluster: -long(cluster))
 

@@ -69,7 +69,9 @@ class Track:
             way = (end - start) / np.linalg.norm(end - start)
             heights = (flat - start) @ np.array([-way[1], way[0]])
             high = float(np.ptp(heights))
-            low, top = (float(np.ptp(flat[on] @ way)) for on in (heights < BESIDE * high, heights > (1 - BESIDE) * high))
+            low, top = (
+                float(np.ptp(flat[on] @ way)) for on in (heights < BESIDE * high, heights > (1 - BESIDE) * high)
+            )
             if low > best:
                 best, found = low, np.array([-way[1], way[0]]) @ plane if top < POINTED * low else None
         return found

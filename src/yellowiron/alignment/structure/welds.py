@@ -101,7 +101,9 @@ def _plain(groups: Groups, evidence: ContactEvidence, pairs: Pairs) -> Pairs:
             continue
         la, lb = on.get(ga, set()), on.get(gb, set())
         thirds = (beside(la) & beside(lb)) - {ga, gb} if la and lb else set()
-        if la & lb or any(_hinges(groups, evidence, t, ga, la, on) and _hinges(groups, evidence, t, gb, lb, on) for t in thirds):
+        if la & lb or any(
+            _hinges(groups, evidence, t, ga, la, on) and _hinges(groups, evidence, t, gb, lb, on) for t in thirds
+        ):
             rest.append((a, b))
             continue
         groups.join(ga, gb)
@@ -111,10 +113,8 @@ def _plain(groups: Groups, evidence: ContactEvidence, pairs: Pairs) -> Pairs:
     return rest
 
 
-def _hinges(
-    groups: Groups, evidence: ContactEvidence, third: int, group: int, axes: set[int], on: AxesByGroup
-) -> bool:
-    """True if a third group hinges on one of these axes beside a group, not far off on the other side of the machine."""
+def _hinges(groups: Groups, evidence: ContactEvidence, third: int, group: int, axes: set[int], on: AxesByGroup) -> bool:
+    """True if a third group hinges on one of these axes beside a group, not on the machine's other side."""
     return any(not _far_apart(groups, evidence, third, group, k) for k in axes & on.get(third, set()))
 
 
