@@ -31,7 +31,8 @@ TYPES = {
     "wheel_loader": ("loader",), "excavator": ("excavator", "mini"), "skid_steer": ("skid_steer",),
     "articulated_dump_truck": ("articulated_truck",), "rigid_dump_truck": ("rigid_truck",),
     "backhoe_loader": ("backhoe",), "roller": ("roller",), "forklift": ("forklift",),
-    "telehandler": ("telehandler",), "wheeled_excavator": ("wheeled_excavator",), "mobile_crane": ("crane",),
+    "telehandler": ("telehandler",), "dozer": ("dozer",),
+    "wheeled_excavator": ("wheeled_excavator",), "mobile_crane": ("crane",),
 }  # fmt: skip
 """Type → kinds of machines that we draw of it; a body is measured on the first kind that has it."""
 KEPT = 0.05

@@ -91,6 +91,8 @@ def between(a: Array, b: Array, c: Array, d: Array) -> float:
 class Digger(Drawer):
     """One excavator. Plates lie in levels beside the cylinders' eyes: the arm's in level 0, then outwards."""
 
+    carrier = "undercarriage"
+
     def __init__(self, seed: int, features: Features, *, embedded: bool = False) -> None:
         self.rng = np.random.default_rng(seed)
         self.f = features
@@ -238,8 +240,18 @@ class Digger(Drawer):
     def boss(self, *pins: str) -> Array:
         return around(*((float(self.P[p][0]), float(self.P[p][1]), 2 * self.pin_r) for p in pins))
 
+    def loop(self) -> tuple[list[tuple[float, float]], list[tuple[str, float, float]]]:
+        """The pins of a chain, x and height above the axles, forward on the ground; the wheels that it runs about."""
+        p, r, half = self.pitch, self.pitch_r, 0.5 * self.straight * self.pitch
+        points = [(-half + k * p, -r) for k in range(self.straight)]
+        turn = [-math.pi / 2 + k * 2 * math.pi / self.teeth for k in range(self.teeth // 2)]
+        points += [(half + r * math.cos(a), r * math.sin(a)) for a in turn]
+        points += [(half - k * p, r) for k in range(self.straight)]
+        points += [(-half - r * math.cos(a), -r * math.sin(a)) for a in turn]
+        return points, [("sprocket", -half, 0.0), ("idler", half, 0.0)]
+
     def tracks(self) -> None:
-        m, s, n = self.m, self.s, 2 * self.straight + self.teeth
+        m, s = self.m, self.s
         p, r, z0 = self.pitch, self.pitch_r, self.axle_z
         half = 0.5 * self.straight * p
         lug = 0.24 * p
@@ -268,11 +280,8 @@ class Digger(Drawer):
 
         idler = wheel("idler", 0.05, outer, 0.05)
         roller, carrier = wheel("roller", 0.03, 0.08 * s, 0.12), wheel("carrier", 0.025, 0.06 * s, 0.1)
-        points = [(-half + k * p, -r) for k in range(self.straight)]
-        turn = [-math.pi / 2 + k * 2 * math.pi / self.teeth for k in range(self.teeth // 2)]
-        points += [(half + r * math.cos(a), r * math.sin(a)) for a in turn]
-        points += [(half - k * p, r) for k in range(self.straight)]
-        points += [(-half - r * math.cos(a), -r * math.sin(a)) for a in turn]
+        points, big = self.loop()
+        n = len(points)
         rollers, carriers = int(self.rng.integers(3, 6)), int(self.rng.integers(1, 3))
         pin = tube("track_pin", 0.1 * p, 0.0, 0.25 * s)
         self.half = half
@@ -282,22 +291,24 @@ class Digger(Drawer):
                 a, b = pins[k], pins[(k + 1) % n]
                 along = (b - a) / p
                 role = f"track_shoe_{side}_{k + 1}"
-                m.add("shoe", role, "undercarriage", shoe, place(0.5 * (a + b), np.cross(Y, along), along))
+                m.add("shoe", role, self.carrier, shoe, place(0.5 * (a + b), np.cross(Y, along), along))
                 if self.f.track_pins:
-                    m.add("track_pin", role, "undercarriage", pin, place(a - 0.125 * s * Y, Y))
+                    m.add("track_pin", role, self.carrier, pin, place(a - 0.125 * s * Y, Y))
             low, high = z0 - r + lug + 0.08 * s, z0 + r - lug - 0.06 * s
-            wheels = [(f"sprocket_{side}", sprocket, -half, z0, 0.06), (f"idler_{side}", idler, half, z0, 0.05)]
+            shapes = {"sprocket": (sprocket, 0.06), "idler": (idler, 0.05)}
+            wheels = [(f"{name}_{side}", shapes[name][0], x, z0 + z, shapes[name][1]) for name, x, z in big]
             for k, x in enumerate(np.linspace(half - 0.5 * s, -half + 0.5 * s, rollers)):
                 wheels.append((f"track_roller_{side}_{k + 1}", roller, float(x), low, 0.03))
-            for k, x in enumerate(np.linspace(0.35 * half, -0.35 * half, carriers) if carriers > 1 else (0.0,)):
+            above = np.linspace(0.35 * half, -0.35 * half, carriers) if carriers > 1 else (0.0,)
+            for k, x in enumerate(above if len(big) == 2 else ()):
                 wheels.append((f"carrier_roller_{side}_{k + 1}", carrier, float(x), high, 0.025))
             for role, shape, x, z, bore in wheels:
-                m.add(role.rstrip("_0123456789"), role, "undercarriage", shape, place((x, y, z), Y, X))
+                m.add(role.rstrip("_0123456789"), role, self.carrier, shape, place((x, y, z), Y, X))
                 axle = tube(f"axle_{bore}", 0.999 * bore * s, 0.0, 0.42 * s)
-                m.add("axle", "undercarriage", "undercarriage", axle, place((x, y - 0.21 * s, z), Y))
+                m.add("axle", self.carrier, self.carrier, axle, place((x, y - 0.21 * s, z), Y))
             height = 0.9 * (high - low)
             frame = box("track_frame", 2 * half + 0.2 * s, 0.04 * s, height)
-            m.add("track_frame", "undercarriage", "undercarriage", frame, place((0, self.inside(y), z0), Z, X))
+            m.add("track_frame", self.carrier, self.carrier, frame, place((0, self.inside(y), z0), Z, X))
 
     def inside(self, y: float) -> float:
         """y of a track's frame."""

@@ -13,6 +13,8 @@ from yellowiron.alignment.features.solids import Solid
 from yellowiron.alignment.structure.clusters import Structure
 from yellowiron.model.template import Template
 
+MOVING = ("revolute", "spherical", "prismatic")
+"""Joints that a machine has to show to be whole."""
 MARGIN = 20
 """An assignment is doubtful if the best without it scores this little less: less than a name is worth."""
 RIVALS = 4.0
@@ -63,7 +65,7 @@ def is_whole(answer: Answer) -> bool:
     """True where every body is played and every joint found, each at a place it may have, and no hydraulic cylinder is
     left over."""
     found = {*answer.solution.hinge_of, *answer.solution.slide_of}
-    joints = {j.name for j in answer.template.joints if j.type in ("revolute", "prismatic")}
+    joints = {j.name for j in answer.template.joints if j.type in MOVING}
     bodies = {r.name for r in answer.template.roles if r.rigid and not r.optional}
     cylinders = {c for slide in answer.structure.slides for c in slide[:2]}
     played = answer.solution.body_of
@@ -82,7 +84,7 @@ def open_choices(
 
 def held_share(answer: Answer) -> float:
     """The share of the hinges and slides of its template that an answer has found, 0 to 1."""
-    joints = {j.name for j in answer.template.joints if j.type in ("revolute", "prismatic")}
+    joints = {j.name for j in answer.template.joints if j.type in MOVING}
     return len(joints & {*answer.solution.hinge_of, *answer.solution.slide_of}) / len(joints) if joints else 1.0
 
 
@@ -94,7 +96,7 @@ def drawn_share(answer: Answer, solids: Sequence[Solid]) -> float:
     structure, solution, template = answer.structure, answer.solution, answer.template
     found = {*solution.hinge_of, *solution.slide_of}
     played = set(solution.body_of.values())
-    moving = [j for j in template.joints if j.type in ("revolute", "prismatic")]
+    moving = [j for j in template.joints if j.type in MOVING]
     possible = {j.name for j in moving if set(template.bodies_of(j)) <= played}
     graph = nx.Graph([pair for j in moving if j.name in found and None not in (pair := template.bodies_of(j))])
     if not nx.cycle_basis(graph):

@@ -135,7 +135,10 @@ def _up(scene: _Scene, swing: str | None, flat: Floats | None, doubts: list[str]
         up = _up_guess(_common_direction(list(scene.axes.values())))
         if scene.axes:
             doubts.append("up is guessed: no wheels and no swing axis were found")
-    if scene.rolling or scene.tracks:
+    pointed = next((t.above for t in scene.tracks if t.above is not None), None)
+    if pointed is not None:
+        up = up if float(up @ pointed) > 0.0 else -up
+    elif scene.rolling or scene.tracks:
         below = np.mean([*(w.center for w in scene.rolling), *(t.center for t in scene.tracks)], axis=0)
         if float((_above(scene) - below) @ up) < 0:
             up = -up
@@ -175,9 +178,15 @@ def _ground_normal(scene: _Scene) -> Floats | None:
 def _track_normal(scene: _Scene, track: Track) -> Floats:
     """The normal of the run on the ground: the shoes' middles that are farthest from the rest of the machine. The whole
     loop need not be even about its length."""
+    if track.above is not None:
+        return _square_run(track, track.above)
     normal = np.cross(track.axis, track.along)
     away = track.center - _middle([s for s in scene.solids if all(s.index not in shoe for shoe in track.shoes)])
-    normal = normal if float(away @ normal) < 0.0 else -normal
+    return _square_run(track, normal if float(away @ normal) < 0.0 else -normal)
+
+
+def _square_run(track: Track, normal: Floats) -> Floats:
+    """A normal, square to what lies on the ground."""
     heights = track.centers @ normal
     high = float(np.ptp(heights))
     level = float(np.median(heights[heights < heights.min() + RUN * high]))

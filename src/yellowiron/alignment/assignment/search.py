@@ -15,6 +15,7 @@ from dataclasses import dataclass, field, replace
 
 from yellowiron.alignment.assignment.answer import (
     MARGIN,
+    MOVING,
     Answer,
     is_whole,
     open_choices,
@@ -31,6 +32,7 @@ from yellowiron.alignment.assignment.cp_sat import (
 from yellowiron.alignment.assignment.names import name_scores
 from yellowiron.alignment.assignment.one_sided import one_sided
 from yellowiron.alignment.assignment.sheet_weights import sheet_weights
+from yellowiron.alignment.assignment.sides import twin_role
 from yellowiron.alignment.assignment.symmetries import alike_branches
 from yellowiron.alignment.assignment.weights import (
     MOSTLY,
@@ -58,6 +60,8 @@ MANY_JOINTS = 30
 programs were rewritten first (`cp_sat.solve`)."""
 BROKEN = 1.1
 """More pieces that move than this many for a body, and four: spacers and rings on pins are some."""
+APART = 0.2
+"""The two loose halves of one body, plates of a link, are no farther apart than this share of the machine's size."""
 AGAIN = 0.5
 """The share of it for a search made again without names."""
 BELIEVED = 0.6
@@ -201,7 +205,7 @@ def _least(best: Answer, structure: Structure, template: Template, unary: Mappin
     others = sum(structure.clusters[c].kind not in TYPED for c in playing(structure, unary))
     missing += max(0, sum(not r.optional for r in rigid if r.kind not in TYPED) - others)
     better = best.score + MISSING_WEIGHT * missing + 1
-    joints = sum(1 for j in template.joints if j.type in ("revolute", "prismatic"))
+    joints = sum(1 for j in template.joints if j.type in MOVING)
     return better if is_whole(best) else min(better, JOINT_WEIGHT * joints)
 
 
@@ -226,15 +230,19 @@ def _by_cylinders(variants: list[dict[str, str]], template: Template, drawn: int
 def _structures(observation: Observation, template: Template, bodies: int, *, careful: bool) -> Iterator[Structure]:
     """Readings of the welds, likeliest first: flat contact alone, unless that leaves more pieces that move than the
     machine has `bodies`; then also what touches; each first with wide round things fast in their bores, then turning in
-    them. `careful`: without the welds that lock a pin."""
+    them. `careful`: without the welds that lock a pin. Where the type has an arm on either side, what is far apart
+    across a hinge is first read as two bodies, and then as one."""
     if not observation.evidence:
         yield Structure()
         return
     read = functools.cache(functools.partial(structure_of, leaves=_has_leaves(template), careful=careful))
-    broken = loose_ends(read(observation.evidence[0], weak=False)) > BROKEN * bodies + 4
-    for weak in (broken, not broken):
-        for evidence in observation.evidence:
-            yield read(evidence, weak=weak)
+    wide = APART * observation.size
+    apart = [replace(e, halves_within=wide) for e in observation.evidence] if _has_twin_arms(template) else []
+    broken = loose_ends(read((*apart, *observation.evidence)[0], weak=False)) > BROKEN * bodies + 4
+    for several in (apart, observation.evidence):
+        for weak in (broken, not broken):
+            for evidence in several:
+                yield read(evidence, weak=weak)
 
 
 def _barred(structure: Structure, template: Template, up: Floats | None) -> frozenset[tuple[str, int]]:
@@ -245,6 +253,11 @@ def _barred(structure: Structure, template: Template, up: Floats | None) -> froz
         k for k, hinge in enumerate(structure.hinges) if abs(float(structure.axes[hinge.axis].direction @ up)) < UPRIGHT
     ]
     return frozenset((name, k) for name in slewing_joints(template) for k in lying)
+
+
+def _has_twin_arms(template: Template) -> bool:
+    """True if the type has one arm to the left and one to the right, each a body of its own."""
+    return any(r.rigid and r.kind == "arm" and twin_role(r.name) is not None for r in template.roles)
 
 
 def _has_leaves(template: Template) -> bool:

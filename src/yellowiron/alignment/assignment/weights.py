@@ -30,6 +30,9 @@ SIDE_WEIGHT = 80
 SIZE_WEIGHT = 12
 LONGER = 1.3
 """Of two cylinders that hang alike, one that usually is so many times longer than the other is told by it."""
+CROSSED = 0.2
+"""The cosine by which two cylinders are more nearly mirror images than either is of a third, where that tells them: the
+cylinder that tilts a blade lies across between those that angle it."""
 AS_GOOD = 0.1
 """Bodies that a name speaks of this nearly as much as of the one it speaks of most are meant as well."""
 TRUSTING = 6
@@ -173,14 +176,31 @@ def between_twins(template: Template) -> list[tuple[str, str, str]]:
 
 def told_by_length(template: Template) -> list[tuple[str, str]]:
     """Barrels, and rods, of two cylinders between the same two bodies of which one usually is clearly longer, that one
-    first."""
+    first; and links between the same two bodies, no two of which are each other's twins."""
     usual, found = template.usual, []
-    for names in _hung_alike(template):
-        if len(names) == 2 and all(name in usual and twin_role(name) is None for name in names):
+    alike = [names for names in _hung_alike(template) if all(twin_role(name) is None for name in names)]
+    for names in (*alike, *_linked_alike(template)):
+        if len(names) == 2 and all(name in usual for name in names):
             short, long = sorted(names, key=lambda name: usual[name].length)
             if usual[long].length > LONGER * usual[short].length:
                 found.append((long, short))
     return found
+
+
+def _linked_alike(template: Template) -> list[list[str]]:
+    """Links that hang on the same two bodies and on nothing else, on one side, whatever their joints: a push arm's yoke
+    and its brace."""
+    kinds, beside = {r.name: r.kind for r in template.roles if r.rigid}, dict[str, list[str]]()
+    for joint in template.joints:
+        a, b = template.bodies_of(joint)
+        if a in kinds and b in kinds:
+            beside.setdefault(str(a), []).append(str(b))
+            beside.setdefault(str(b), []).append(str(a))
+    held: dict[frozenset[str], list[str]] = {}
+    for name, others in sorted(beside.items()):
+        if not kinds[name] and len(others) == len(set(others)) == 2 and not END.search(name):
+            held.setdefault(frozenset(others), []).append(name)
+    return [names for names in held.values() if not {twin_role(name) for name in names} & set(names)]
 
 
 def _hung_alike(template: Template) -> list[list[str]]:
@@ -188,7 +208,7 @@ def _hung_alike(template: Template) -> list[list[str]]:
     kinds, ends = {r.name: r.kind for r in template.roles if r.rigid}, dict[str, set[str]]()
     for joint in template.joints:
         a, b = template.bodies_of(joint)
-        if joint.type == "revolute" and a is not None and b is not None:
+        if joint.type in ("revolute", "spherical") and a is not None and b is not None:
             for own, other in ((a, b), (b, a)):
                 ends.setdefault(own, set()).add(other)
     held: dict[tuple[str, frozenset[str], frozenset[str]], list[str]] = {}
@@ -200,6 +220,21 @@ def _hung_alike(template: Template) -> list[list[str]]:
             for half in pair:
                 held.setdefault((kinds[half], hung, held_by), []).append(half)
     return list(held.values())
+
+
+def _ranks_of_trio(found: Sequence[tuple[Floats, Floats]]) -> list[float]:
+    """The ranks of cylinders (their places and directions), of which two are each other's mirror image: from left to
+    right, the one that is no twin in the middle. Where all three lie alike, it is the one between the others."""
+    across = [-float(place[1]) for place, _ in found]
+    if len(found) != 3:
+        return across
+    flip = np.array([1.0, -1.0, 1.0])
+    alike = {k: abs(float(found[k - 2][1] @ (flip * found[k - 1][1]))) for k in range(3)}
+    best, second = sorted(alike, key=lambda k: -alike[k])[:2]
+    if alike[best] - alike[second] > CROSSED:
+        others = [across[k] for k in range(3) if k != best]
+        across[best] = 0.5 * (others[0] + others[1])
+    return across
 
 
 def _told(sided: Weights, names: Sequence[str], cluster_of: Mapping[str, int], rank: Callable[[int], float]) -> None:
@@ -248,9 +283,16 @@ def side_weights(
             np.linalg.norm(np.max([s.high for s in members], axis=0) - np.min([s.low for s in members], axis=0))
         )
 
+    def along(cluster: int) -> Floats:
+        corners = np.concatenate([solids[i].points for i in sorted(structure.clusters[cluster].members)])
+        way = np.linalg.svd(corners - corners.mean(axis=0), full_matrices=False)[2][0]
+        return np.asarray(frame.matrix[:3, :3] @ way, dtype=np.float64)
+
     between = between_twins(template)
     for trio in between:
-        _told(sided, trio, cluster_of, lambda cluster: -place(cluster)[1])
+        three = [cluster_of[name] for name in trio if name in cluster_of]
+        ranks = _ranks_of_trio([(place(c), along(c)) for c in three])
+        _told(sided, trio, cluster_of, dict(zip(three, ranks, strict=True)).__getitem__)
     for pair in told_by_length(template):
         _told(sided, pair, cluster_of, lambda cluster: -long(cluster))
 

@@ -37,6 +37,8 @@ _UNSEEN, _LEANS = 0.5, math.radians(5.0)
 may lean: masts tilt by 5° to 12°, and are drawn upright as a rule."""
 _NARROW = 4.0
 """What is so many times longer than wide slides along its length."""
+_NEARLY, _LEANING = 0.7, 3.0
+"""A ball's pin lies across its cylinder, to this cosine; to so many degrees, one of the machine's directions."""
 PIVOT_TAKEN = 0.4
 """Quality from which a hinge that is drawn at a pivot of the scene's tree has it to itself."""
 
@@ -92,6 +94,10 @@ def estimate_axes(
         found |= {name: _estimate(name, candidates) for name, candidates in hinges.items()}
     for name, line in lines.items():
         found[name] = _slide(name, line, template, found)
+    for joint in template.joints:
+        pair = template.bodies_of(joint)
+        if joint.type == "spherical" and None not in pair and len(set(pair)) == 2 and set(pair) <= bodies.keys():
+            found[joint.name] = _ball(joint, template, bodies, frame, lines, (pivots or {}).get(joint.name), loose)
     return {j.name: found[j.name] for j in template.joints if j.name in found}
 
 
@@ -164,6 +170,42 @@ def _single(
         tried += hinge_candidates(bodies[a], bodies[b], exact.vector, clues, lean=exact.angle)
     tried.sort(key=lambda c: -round(c.quality, 9))
     return _estimate(joint.name, tried)
+
+
+def _ball(
+    joint: JointTemplate, template: Template, bodies: Mapping[str, Body], frame: Frame, lines: Mapping[str, Line],
+    pivots: Floats | None, loose: Sequence[Body],
+) -> AxisEstimate:  # fmt: skip
+    """The middle of a ball, and the pin that may be drawn in its stead: of a cylinder's end on the cylinder's line."""
+    pair = set(template.bodies_of(joint))
+    slides = [j for j in template.joints if j.name in lines and len(pair & set(template.bodies_of(j))) == 1]
+    line = lines[slides[0].name] if slides else None
+    if line is not None and len(halves := [b for b in template.bodies_of(slides[0]) if b in bodies]) == 1:
+        # Of a half alone nothing else says which end is which.
+        half, (other,) = str(halves[0]), pair - set(halves)
+        ahead = np.median(bodies[str(other)].samples, axis=0) - np.median(bodies[half].samples, axis=0)
+        rod = template.role(half).kind == "rod"
+        line = line if (float(ahead @ line.direction) > 0.0) == rod else replace(line, direction=-line.direction)
+        lines = {**lines, slides[0].name: line}
+    given = [w for w in (frame.left, frame.up, frame.forward) if w is not None] or list(np.eye(3))
+    if line is not None:
+        along = line.direction
+        given = [unit(w - (w @ along) * along) for w in given if abs(float(w @ along)) < _NEARLY]
+    tried: list[Candidate] = []
+    for way in given:
+        exact = Direction(way, math.radians(_LEANING), "the machine's frame")
+        tried += _hinge(joint, template, bodies, exact, (*slides[:1], joint), lines, pivots, loose)
+    tried.sort(key=lambda c: -round(c.quality, 9))
+    if line is not None:
+        tried = [replace(c, origin=_nearest(line, c)) for c in tried]
+    return _estimate(joint.name, tried)
+
+
+def _nearest(line: Line, candidate: Candidate) -> Floats:
+    """The point of a line that is nearest to a hinge's axis."""
+    off, across = candidate.origin - line.origin, candidate.direction
+    square = line.direction - (line.direction @ across) * across
+    return line.origin + float(off @ square) / float(square @ square) * line.direction
 
 
 def _others(bodies: Mapping[str, Body], pair: tuple[str, str], loose: Sequence[Body]) -> list[Body]:

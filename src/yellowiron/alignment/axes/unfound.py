@@ -43,7 +43,7 @@ def unfound_axes(
     wanted = {
         j.name
         for j in template.joints
-        if j.type in ("revolute", "prismatic") and not j.ring and j.name not in found
+        if j.type in ("revolute", "spherical", "prismatic") and not j.ring and j.name not in found
         and all(b in labels for b in template.bodies_of(j))
     }  # fmt: skip
     if not wanted:

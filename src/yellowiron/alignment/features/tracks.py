@@ -12,7 +12,7 @@ from collections.abc import Sequence
 from dataclasses import dataclass
 
 import numpy as np
-from scipy.spatial import cKDTree
+from scipy.spatial import ConvexHull, cKDTree
 
 from yellowiron.alignment.features.solids import Solid
 from yellowiron.alignment.features.track_wheels import TrackWheel, track_wheels_of
@@ -28,6 +28,10 @@ NEXT = 1.35
 """A neighbour in the row is nearer than this many times the usual distance."""
 FLAT = 0.03
 """How far a row may be from a plane, as a share of its length."""
+BESIDE = 0.1
+"""What is within this share of a loop's height of its lowest or highest line lies along that."""
+POINTED = 0.5
+"""A loop runs to a point where less than this share of its longest side's length lies opposite that side."""
 PLACE = 0.3
 """Two parts sit at the same place of their shoes if their places differ by less than this many pitches."""
 
@@ -52,6 +56,25 @@ class Track:
     def along(self) -> Floats:
         """The unit direction in which the loop is longest."""
         return np.asarray(np.linalg.svd(self.centers - self.centers.mean(axis=0))[2][0], dtype=np.float64)
+
+    @property
+    def above(self) -> Floats | None:
+        """The unit direction from the ground up, of a loop that runs to a point above it (a high sprocket's); None of
+        one that is as long above as below."""
+        plane = np.linalg.svd(self.centers - self.centers.mean(axis=0))[2][:2]
+        flat = self.centers @ plane.T
+        corners = flat[ConvexHull(flat).vertices]
+        best, found = 0.0, None
+        for start, end in zip(corners, np.roll(corners, -1, axis=0), strict=True):
+            way = (end - start) / np.linalg.norm(end - start)
+            heights = (flat - start) @ np.array([-way[1], way[0]])
+            high = float(np.ptp(heights))
+            low, top = (
+                float(np.ptp(flat[on] @ way)) for on in (heights < BESIDE * high, heights > (1 - BESIDE) * high)
+            )
+            if low > best:
+                best, found = low, np.array([-way[1], way[0]]) @ plane if top < POINTED * low else None
+        return found
 
 
 def tracks_of(solids: Sequence[Solid]) -> list[Track]:

@@ -24,6 +24,8 @@ from yellowiron.model.template import Template
 
 PARTS = (1, 2)
 """What begins so many joints from the root may be all that is drawn."""
+NARROWER = 1.8
+"""What is drawn is not a part of a machine that usually is so many times wider for its length."""
 
 
 @dataclass(frozen=True, eq=False)
@@ -133,5 +135,8 @@ def _as_parts(stance: Stance, evidence: Evidence, template: Template) -> list[St
         usual = [resolved.usual[b] for b in sorted(bodies) if b in resolved.usual]
         if usual and len(points):
             low, high = np.min([u.low for u in usual], axis=0), np.max([u.high for u in usual], axis=0)
+            long, wide, _ = np.ptp(points @ stance.rotation.T, axis=0)
+            if NARROWER * wide * (high - low)[0] < long * (high - low)[1]:
+                continue  # a blade on its frame is wider than long, a dozer is not
             found.append(stance.as_part(points, low, high, sum(u.area for u in usual) / total, rigid - bodies))
     return found

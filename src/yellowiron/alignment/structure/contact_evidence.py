@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import itertools
+import math
 from collections.abc import Callable
 from dataclasses import dataclass, field
 
@@ -38,7 +39,8 @@ class ContactEvidence:
     - `welds`, `turning`: flat contacts that hold, and those that allow turning about a shared axis;
     - `area`: m² of flat contact of a pair;
     - `nests`: sections that slide in each other;
-    - `near`: pairs whose boxes touch; `touching(a, b)` asks the meshes.
+    - `near`: pairs whose boxes touch; `touching(a, b)` asks the meshes;
+    - `halves_within`: metres across a hinge that the two loose halves of one body are apart at most.
     """
 
     solids: tuple[Solid, ...]
@@ -62,6 +64,7 @@ class ContactEvidence:
     turning: tuple[Flat, ...]
     area: dict[tuple[int, int], float]
     nests: tuple[Nest, ...] = ()
+    halves_within: float = math.inf
 
 
 @dataclass(frozen=True, eq=False)

@@ -6,6 +6,8 @@ joins first what raises no suspicion, then the least suspicious, and keeps back 
 
 from __future__ import annotations
 
+import math
+
 from yellowiron.alignment.features.contacts import SharedAxis
 from yellowiron.alignment.features.solids import Solid
 from yellowiron.alignment.structure.contact_evidence import ContactEvidence
@@ -26,15 +28,33 @@ def axes_by_group(groups: Groups, evidence: ContactEvidence, *, without: frozens
 
 
 def join_doubly_pinned(groups: Groups, evidence: ContactEvidence) -> None:
-    """Two distinct axes in common weld, again and again until nothing changes."""
+    """Two distinct axes in common weld, again and again until nothing changes; not what is too far apart to be the two
+    loose halves of one body (`halves_within`): arms to the left and to the right of a machine share their hinges' lines
+    too."""
     changed = True
     while changed:
         changed = False
         on = axes_by_group(groups, evidence)
         pairs = {(a, b) for found in _by_axis(on).values() for a in found for b in found if a < b}
         for a, b in sorted(pairs):
-            if groups.find(a) != groups.find(b) and len(on[a] & on[b]) >= 2 and groups.join(a, b):
-                changed = True
+            common = on[a] & on[b]
+            if groups.find(a) == groups.find(b) or len(common) < 2 or _far_apart(groups, evidence, a, b, min(common)):
+                continue
+            changed |= groups.join(a, b)
+
+
+def _far_apart(groups: Groups, evidence: ContactEvidence, a: int, b: int, axis: int) -> bool:
+    """True if two groups are farther apart along a common axis than loose halves of one body are."""
+    if evidence.halves_within == math.inf:
+        return False
+    along = evidence.axes[axis].direction
+    reach = {a: [math.inf, -math.inf], b: [math.inf, -math.inf]}
+    for solid in evidence.solids:
+        ends = reach.get(groups.find(solid.index))
+        if ends is not None:
+            places = solid.points @ along
+            ends[:] = min(ends[0], float(places.min())), max(ends[1], float(places.max()))
+    return max(reach[a][0] - reach[b][1], reach[b][0] - reach[a][1]) > evidence.halves_within
 
 
 def weld(groups: Groups, evidence: ContactEvidence, pairs: Pairs, *, careful: bool) -> Pairs:
@@ -80,7 +100,10 @@ def _plain(groups: Groups, evidence: ContactEvidence, pairs: Pairs) -> Pairs:
         if ga == gb or not groups.may_join(ga, gb):
             continue
         la, lb = on.get(ga, set()), on.get(gb, set())
-        if la and lb and (la & lb or (beside(la) & beside(lb)) - {ga, gb}):
+        thirds = (beside(la) & beside(lb)) - {ga, gb} if la and lb else set()
+        if la & lb or any(
+            _hinges(groups, evidence, t, ga, la, on) and _hinges(groups, evidence, t, gb, lb, on) for t in thirds
+        ):
             rest.append((a, b))
             continue
         groups.join(ga, gb)
@@ -88,6 +111,11 @@ def _plain(groups: Groups, evidence: ContactEvidence, pairs: Pairs) -> Pairs:
         on.pop(gb, None)
         on[groups.find(ga)] = la | lb
     return rest
+
+
+def _hinges(groups: Groups, evidence: ContactEvidence, third: int, group: int, axes: set[int], on: AxesByGroup) -> bool:
+    """True if a third group hinges on one of these axes beside a group, not on the machine's other side."""
+    return any(not _far_apart(groups, evidence, third, group, k) for k in axes & on.get(third, set()))
 
 
 def _least_suspicious(groups: Groups, evidence: ContactEvidence, pairs: Pairs) -> tuple[int, int] | None:
