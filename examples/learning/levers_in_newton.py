@@ -15,9 +15,11 @@ from collections.abc import Mapping
 from pathlib import Path
 
 import newton
+import newton_usd_schemas  # noqa: F401  registers its schemas before a stage opens
 import numpy as np
+import physx_usd_schemas  # noqa: F401  likewise
 import warp
-from many_worlds import held
+from pxr import Usd, UsdGeom, UsdPhysics
 
 from yellowiron import read_mechanism
 from yellowiron.hydraulics import Circuit, Hydraulics
@@ -96,6 +98,20 @@ class Machine:
         for _ in range(round(1.0 / self._step)):
             self.step({})
         return count * self._step if count * self._step < PATIENCE else np.inf
+
+
+def held(machine: Path) -> Usd.Stage:
+    """The machine alone, its base fixed and without colliders: nothing is there to touch."""
+    stage = Usd.Stage.CreateInMemory()
+    UsdPhysics.Scene.Define(stage, "/scene")
+    UsdGeom.SetStageMetersPerUnit(stage, 1.0)
+    UsdGeom.SetStageUpAxis(stage, UsdGeom.Tokens.z)
+    prim = stage.DefinePrim("/machine", "Xform")
+    prim.GetReferences().AddReference(str(machine.resolve()))
+    prim.GetVariantSet("Base").SetVariantSelection("fixed")
+    for path in [each.GetPath() for each in Usd.PrimRange(prim) if each.GetName() == "colliders"]:
+        stage.GetPrimAtPath(path).SetActive(False)
+    return stage
 
 
 def _by_flow(circuit: Circuit, flow: float, sense: int) -> float:

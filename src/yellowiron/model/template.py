@@ -297,9 +297,9 @@ class UsualHinge:
 
 @dataclass(frozen=True)
 class Balance:
-    """What the front axle carries of the unladen machine: bodies of the `front` and the `rear` that stand on the ground
-    (without their side), the `specification` that gives the load, the least and greatest `usual` share (0 to 1, None:
-    unknown) with their `source`, and the `body` whose centre of mass is placed by it."""
+    """What the `front` of the unladen machine carries (`front`, `rear`: bodies on the ground, without their side): the
+    `specification` that gives it, the least and greatest `usual` share (0 to 1) with their `source`, and the `body`
+    whose centre of mass is placed by it."""
 
     body: str
     front: tuple[str, ...]
@@ -433,15 +433,11 @@ def choose(template: Template, choices: Mapping[str, str]) -> Template:
     chosen = {**template.default_choices(), **choices}
 
     roles = tuple(_chosen(r, chosen) for r in template.roles if holds(r.when, chosen))
+    there = [j for j in template.joints if holds(j.when, chosen)]
+    drives = [j.drive if holds(j.drive_when, chosen) else None for j in there]
     joints = tuple(
-        replace(
-            _unsprung(_held(j, chosen), chosen),
-            when={},
-            drive_when={},
-            drive=j.drive if holds(j.drive_when, chosen) else None,
-        )
-        for j in template.joints
-        if holds(j.when, chosen)
+        replace(_unsprung(_held(j, chosen), chosen), when={}, drive_when={}, drive=drive)
+        for j, drive in zip(there, drives, strict=True)
     )
     kept, present = {j.name for j in joints}, {r.name for r in roles}
     actuators = []
