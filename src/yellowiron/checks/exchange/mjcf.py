@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from collections.abc import Collection, Mapping
 from pathlib import Path
 from typing import Any
 
@@ -11,6 +12,9 @@ from yellowiron.checks.exchange.parts import JointRead, LinkRead, view_of
 from yellowiron.checks.view import View
 from yellowiron.model.errors import YellowironError
 from yellowiron.model.geometry import Floats
+
+Led = tuple[str, float, float]
+"""The joint that leads another, and by what ratio and offset."""
 
 
 def compiled(path: Path) -> Any:
@@ -36,7 +40,8 @@ def read_mjcf(path: Path, model: Any) -> View:
     names = [model.body(i).name or f"body {i}" for i in range(model.nbody)]
     names[0] = ""
     links = [_link(model, data, i, names[i]) for i in range(1, model.nbody)]
-    tree = [joint for i in range(1, model.nbody) for joint in _joints(model, data, i, names)]
+    moved, leaders = _moved(model), _leaders(model)
+    tree = [j for i in range(1, model.nbody) for j in _joints(model, data, i, names, moved=moved, leaders=leaders)]
     return view_of(path.name, links, [*tree, *_equalities(model, data, names)])
 
 
@@ -61,7 +66,9 @@ _KINDS = ("free", "spherical", "prismatic", "revolute")
 """By MuJoCo's numbers of joint types."""
 
 
-def _joints(model: Any, data: Any, index: int, names: list[str]) -> list[JointRead]:
+def _joints(
+    model: Any, data: Any, index: int, names: list[str], *, moved: Collection[int], leaders: Mapping[int, Led]
+) -> list[JointRead]:
     """What holds a body on its parent: one joint, none (welded, but on the world standing still), or several as one
     that leaves more free."""
     parent, child = names[int(model.body_parentid[index])], names[index]
@@ -77,7 +84,6 @@ def _joints(model: Any, data: Any, index: int, names: list[str]) -> list[JointRe
         whole = "spherical" if kinds == ["revolute"] * 3 else "free"
         anchor = np.array(data.xanchor[first])
         return [JointRead(f"joints of {child}", whole, parent, child, (anchor, anchor), np.eye(3)[0], moved=True)]
-    moved, leaders = _moved(model), _leaders(model)
     anchor = np.array(data.xanchor[first])
     limited = bool(model.jnt_limited[first]) and kinds[0] in ("revolute", "prismatic")
     low, high = (float(v) for v in model.jnt_range[first]) if limited else (None, None)
@@ -111,7 +117,7 @@ def _moved(model: Any) -> set[int]:
     return found
 
 
-def _leaders(model: Any) -> dict[int, tuple[str, float, float]]:
+def _leaders(model: Any) -> dict[int, Led]:
     """Joint → what leads it by a straight line, with ratio and offset."""
     import mujoco
 

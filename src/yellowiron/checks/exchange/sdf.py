@@ -27,7 +27,7 @@ _KINDS = {
 _FAR = 1e16
 """SDFormat's "no limit"."""
 _DRAKE = "{http://drake.mit.edu}"
-_CONTROLLERS = ("JointPositionController", "JointController", "DetachableJoint")
+_CONTROLLERS = ("JointPositionController", "JointController")
 _WORLD = ("world", "__model__")
 
 
@@ -53,9 +53,12 @@ class _Model:
         self._element = element
         self._frames = {e.get("name", ""): e for tag in ("frame", "joint", "link") for e in element.findall(tag)}
         self._placed: dict[str, Floats] = {name: np.eye(4) for name in _WORLD}
-        plugins = [p for p in element.findall("plugin") if any(c in p.get("name", "") for c in _CONTROLLERS)]
-        self._driven = {p.findtext("joint_name", "") for p in plugins}
-        self._welds = [p for p in plugins if "DetachableJoint" in p.get("name", "")]
+        plugins = {kind: self._plugins(kind) for kind in (*_CONTROLLERS, "DetachableJoint")}
+        self._driven = {p.findtext("joint_name", "") for kind in _CONTROLLERS for p in plugins[kind]}
+        self._welds = plugins["DetachableJoint"]
+
+    def _plugins(self, kind: str) -> list[ET.Element]:
+        return [p for p in self._element.findall("plugin") if kind in p.get("name", "")]
 
     def place(self, name: str, open_: frozenset[str] = frozenset()) -> Floats:
         """A frame, link or joint in the model (4, 4)."""
