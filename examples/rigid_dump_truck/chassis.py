@@ -136,7 +136,7 @@ def draw_top() -> Assembly:
     put("AIR CLEANERS", sheet_box(5700, 6500, -1500, -700, DECK + 20, 3000, 6.0), GREY)
     put("HYDRAULIC TANK", sheet_box(3950, 4700, -1700, -600, DECK + 20, 2900, 6.0))
     put("EXHAUST", rod((6800, -1200, DECK + 20), Z, 110, 500), BLACK)
-    put("FUEL TANK", sheet_box(2100, 2950, outside, 950, 1150, 1550, 8.0), BLACK)
+    put("FUEL TANK", sheet_box(2450, 3050, outside, 950, 1150, 1550, 8.0), BLACK)
     for name, y in (("LH", 1300.0), ("RH", -1500.0)):
         put(f"LADDER {name}", box(7305, 7345, y, y + 200, 1600, DECK + 20), GREY)
     put("GRILLE", ring((7291, 0, 1900), (1.0, 0.0, 0.0), 300, 250, 9), BLACK)
