@@ -25,7 +25,7 @@ AXLE = ("axle", "knuckle", *LINKAGE)
 
 CASES = [
     pytest.param("forklift", lambda: lift_truck(3, "simplex"), "rear", -1.0, 45.0, id="forklift"),
-    pytest.param("backhoe_loader", lambda: backhoe(3), "front", 1.0, 37.0, id="backhoe loader"),
+    pytest.param("backhoe_loader", lambda: backhoe(3), "front", 1.0, 37.0, id="backhoe loader", marks=pytest.mark.slow),
 ]
 
 

@@ -39,7 +39,7 @@ def test_full_strokes_with_the_rated_load(file: Path, engine: str, actuators: li
 
 
 def test_its_cylinders_lift_what_it_is_rated_for(file: Path) -> None:
-    """The truck tips where its sheet's axle loads say: 7 t take 3400 of 5200 kg off the rear axle, and 10.7 t all of it.
+    """The truck tips where its sheet's axle loads say: 7 t take 3400 of 5200 kg off the rear axle, 10.7 t all of it.
     The relief pressure lets through less than half as much again: two rams of 80 mm at 19.1 MPa hold 9.3 t on the chain
     with the carriage and the inner mast."""
     tipping, rated, more = run_tests(file, engine="mujoco")

@@ -36,6 +36,7 @@ def test_faint_bands_are_rules_and_the_tops_of_letters_none() -> None:
     assert all(r.x0 == pytest.approx(30.0, abs=2.0) and r.x1 == pytest.approx(430.0, abs=2.0) for r in level)
 
 
+@pytest.mark.slow
 def test_a_photograph_has_no_rules() -> None:
     picture = np.random.default_rng(7).integers(0, 255, (900, 1300), dtype=np.uint8)
     picture = np.repeat(np.repeat(picture[:90, :13], 10, axis=0), 100, axis=1)
