@@ -157,16 +157,22 @@ def targets(slides: list[Slide], hz: float) -> Iterator[np.ndarray]:
             yield now
 
 
-def world(machine: Path, file: Path, *, hz: float | None = None, iterations: int | None = None) -> Usd.Stage:
-    """A user's own scene: the machine referenced with its base fixed, gravity, and nothing else."""
+def plain_scene(file: Path, down: Gf.Vec3f) -> tuple[Usd.Stage, UsdPhysics.Scene]:
+    """A stage in metres and kilograms, and its physics scene with gravity that way."""
     stage = Usd.Stage.CreateNew(str(file))
     UsdGeom.SetStageUpAxis(stage, UsdGeom.Tokens.z)
     UsdGeom.SetStageMetersPerUnit(stage, 1.0)
     UsdPhysics.SetStageKilogramsPerUnit(stage, 1.0)
     stage.SetDefaultPrim(stage.DefinePrim("/World", "Xform"))
     scene = UsdPhysics.Scene.Define(stage, "/World/scene")
-    scene.CreateGravityDirectionAttr(Gf.Vec3f(0.0, 0.0, -1.0))
+    scene.CreateGravityDirectionAttr(down)
     scene.CreateGravityMagnitudeAttr(9.81)
+    return stage, scene
+
+
+def world(machine: Path, file: Path, *, hz: float | None = None, iterations: int | None = None) -> Usd.Stage:
+    """A user's own scene: the machine referenced with its base fixed, gravity, and nothing else."""
+    stage, scene = plain_scene(file, Gf.Vec3f(0.0, 0.0, -1.0))
     if hz is not None:
         from pxr import Sdf
 
@@ -240,9 +246,16 @@ class Worst:
 
 
 # ---- PhysX -----------------------------------------------------------------------------------------------------------
-def physx(machine: Path, case: str) -> dict[str, Any]:
+def physx_schemas() -> list[str]:
+    """The folders of PhysX's schemas, which its stage asks for by name."""
     from importlib import metadata
 
+    schemas = metadata.distribution("physx-usd-schemas")
+    names = ("PhysxSchema", "OmniUsdPhysicsDeformableSchema")
+    return [str(schemas.locate_file(f"physx_usd_schemas/{name}/resources")) for name in names]
+
+
+def physx(machine: Path, case: str) -> dict[str, Any]:
     import newton_usd_schemas  # noqa: F401
     import ovphysx
     import ovstage
@@ -252,12 +265,7 @@ def physx(machine: Path, case: str) -> dict[str, Any]:
     warnings.simplefilter("ignore")
     hz, iterations = PHYSX[case]
     ovphysx.PhysX.set_cpu_mode(True)
-    schemas = metadata.distribution("physx-usd-schemas")
-    folders = [
-        str(schemas.locate_file(f"physx_usd_schemas/{name}/resources"))
-        for name in ("PhysxSchema", "OmniUsdPhysicsDeformableSchema")
-    ]
-    ovstage.population.register_usd_schemas([*folders, str(ovphysx.newton_schema_root())])
+    ovstage.population.register_usd_schemas([*physx_schemas(), str(ovphysx.newton_schema_root())])
     engine, scene = ovphysx.PhysX(), ovstage.Stage("defaults")
     with tempfile.TemporaryDirectory() as folder:
         file = Path(folder) / "world.usda"

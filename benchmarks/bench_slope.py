@@ -16,13 +16,13 @@ import subprocess
 import sys
 import tempfile
 import warnings
-from collections.abc import Callable, Iterator
+from collections.abc import Callable
 from pathlib import Path
-from typing import Any
 
 import numpy as np
 from pxr import Gf, Sdf, Usd, UsdGeom, UsdPhysics, UsdShade
 
+from bench_defaults import physx_schemas, plain_scene
 from bench_physics import creep
 
 SLOPE = math.radians(20.0)
@@ -56,14 +56,7 @@ def _of_a_process(file: Path, case: str, brakes: str) -> str:
 
 
 def scene(machine: Path, file: Path, *, hz: float, brakes: str, told: bool) -> Usd.Stage:
-    stage = Usd.Stage.CreateNew(str(file))
-    UsdGeom.SetStageUpAxis(stage, UsdGeom.Tokens.z)
-    UsdGeom.SetStageMetersPerUnit(stage, 1.0)
-    UsdPhysics.SetStageKilogramsPerUnit(stage, 1.0)
-    stage.SetDefaultPrim(stage.DefinePrim("/World", "Xform"))
-    world = UsdPhysics.Scene.Define(stage, "/World/scene")
-    world.CreateGravityDirectionAttr(Gf.Vec3f(math.sin(SLOPE), 0.0, -math.cos(SLOPE)))
-    world.CreateGravityMagnitudeAttr(9.81)
+    stage, world = plain_scene(file, Gf.Vec3f(math.sin(SLOPE), 0.0, -math.cos(SLOPE)))
     prim = world.GetPrim()
     prim.AddAppliedSchema("PhysxSceneAPI")
     prim.CreateAttribute("physxScene:timeStepsPerSecond", Sdf.ValueTypeNames.UInt).Set(round(hz))
@@ -124,8 +117,6 @@ def in_newton(machine: Path, case: str, brakes: str) -> float:
 
 
 def in_physx(machine: Path, case: str, brakes: str) -> float:
-    from importlib import metadata
-
     import newton_usd_schemas  # noqa: F401
     import ovphysx
     import ovstage
@@ -134,7 +125,7 @@ def in_physx(machine: Path, case: str, brakes: str) -> float:
 
     hz = 120.0
     ovphysx.PhysX.set_cpu_mode(True)
-    ovstage.population.register_usd_schemas([*_schemas(metadata), str(ovphysx.newton_schema_root())])
+    ovstage.population.register_usd_schemas([*physx_schemas(), str(ovphysx.newton_schema_root())])
     engine, stage = ovphysx.PhysX(), ovstage.Stage("slope")
     with tempfile.TemporaryDirectory() as folder:
         file = Path(folder) / "world.usda"
@@ -152,12 +143,6 @@ def in_physx(machine: Path, case: str, brakes: str) -> float:
         return poses[0, 0, :3].copy()
 
     return downhill(place, lambda: engine.step_sync(1.0 / hz), hz)
-
-
-def _schemas(metadata: Any) -> Iterator[str]:
-    found = metadata.distribution("physx-usd-schemas")
-    for name in ("PhysxSchema", "OmniUsdPhysicsDeformableSchema"):
-        yield str(found.locate_file(f"physx_usd_schemas/{name}/resources"))
 
 
 def in_mujoco(machine: Path, case: str, brakes: str) -> float:

@@ -46,7 +46,7 @@ class _Miss:
 
 
 def compare(view: View, mechanism: Mechanism, poses: Sequence[Posed]) -> tuple[Finding, ...]:
-    """The findings of a file against its machine, worst first, and last how far they agree.
+    """The findings of a file against its machine, and last how far they agree.
 
     `view`: a file of one of the formats that `export` writes. `poses`: of the machine, over its strokes.
     """
@@ -64,8 +64,7 @@ def compare(view: View, mechanism: Mechanism, poses: Sequence[Posed]) -> tuple[F
     )
     if not any(f.severity == "error" for f in findings):
         findings.append(Finding(code="EXP006", severity="info", where=view.name, message=words, hint=""))
-    order = {"error": 0, "warning": 1, "info": 2}
-    return tuple(sorted(findings, key=lambda f: order[f.severity]))
+    return tuple(findings)
 
 
 def _folded(name: str) -> str:

@@ -23,6 +23,10 @@ _FREEDOMS: Mapping[str, tuple[str, ...]] = {
     "planar": ("transY", "transZ", "rotX"),
     "free": (*LINEAR, *ANGULAR),
 }
+_NOTHING = 0.01
+"""kg: what stands between the pivots of a ball weighs less."""
+_ONE_POINT = 1e-6
+"""Metres."""
 
 
 @dataclass(frozen=True, eq=False)
@@ -79,12 +83,6 @@ def with_loose(view: View, names: Collection[str]) -> View:
     """The same, with joints that are meant to move freely said to be."""
     joints = tuple(replace(j, record={"free": True}) if j.name in names else j for j in view.joints)
     return replace(view, joints=joints, islands=build_islands(view.bodies, joints, ()))
-
-
-_NOTHING = 0.01
-"""kg: what stands between the pivots of a ball weighs less."""
-_ONE_POINT = 1e-6
-"""Metres."""
 
 
 def _is_body(link: LinkRead, joints: Sequence[JointRead]) -> bool:
@@ -198,3 +196,12 @@ def numbers(text: str | None, count: int, *, where: str, default: Sequence[float
             hint="Correct the file, or write it again.",
         )
     return found
+
+
+def inertia_of(entries: Mapping[str, str], *, where: str) -> Floats:
+    """An inertia (3, 3) of `ixx` … `izz`."""
+    at = {"ixx": (0, 0), "ixy": (0, 1), "ixz": (0, 2), "iyy": (1, 1), "iyz": (1, 2), "izz": (2, 2)}
+    made = np.zeros((3, 3))
+    for name, (i, j) in at.items():
+        made[i, j] = made[j, i] = numbers(entries.get(name), 1, where=where)[0]
+    return made

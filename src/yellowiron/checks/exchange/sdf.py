@@ -10,8 +10,7 @@ from xml.etree import ElementTree as ET
 import numpy as np
 from scipy.spatial.transform import Rotation
 
-from yellowiron.checks.exchange.parts import JointRead, LinkRead, numbers, view_of
-from yellowiron.checks.exchange.urdf import inertia_of
+from yellowiron.checks.exchange.parts import JointRead, LinkRead, inertia_of, numbers, view_of
 from yellowiron.checks.view import View
 from yellowiron.model.errors import YellowironError
 from yellowiron.model.geometry import Floats

@@ -3,14 +3,13 @@
 from __future__ import annotations
 
 import json
-from collections.abc import Mapping
 from pathlib import Path
 from xml.etree import ElementTree as ET
 
 import numpy as np
 from scipy.spatial.transform import Rotation
 
-from yellowiron.checks.exchange.parts import JointRead, LinkRead, numbers, view_of
+from yellowiron.checks.exchange.parts import JointRead, LinkRead, inertia_of, numbers, view_of
 from yellowiron.checks.view import View
 from yellowiron.model.errors import YellowironError
 from yellowiron.model.geometry import Floats
@@ -96,15 +95,6 @@ def _link(path: Path, element: ET.Element, pose: Floats) -> LinkRead:
     inertia = None if tensor is None else inertia_of(tensor.attrib, where=where)
     turned = None if inertia is None else frame[:3, :3] @ inertia @ frame[:3, :3].T
     return LinkRead(name, pose, value, frame[:3, 3], turned)
-
-
-def inertia_of(entries: Mapping[str, str], *, where: str) -> Floats:
-    """An inertia (3, 3) of `ixx` … `izz`."""
-    at = {"ixx": (0, 0), "ixy": (0, 1), "ixz": (0, 2), "iyy": (1, 1), "iyz": (1, 2), "izz": (2, 2)}
-    made = np.zeros((3, 3))
-    for name, (i, j) in at.items():
-        made[i, j] = made[j, i] = numbers(entries.get(name), 1, where=where)[0]
-    return made
 
 
 def _joint(path: Path, element: ET.Element, poses: dict[str, Floats], driven: set[str]) -> JointRead:
