@@ -185,6 +185,11 @@ class Joint:
         """Whether it is kept as drawn, for want of anything that moves or holds it."""
         return (self.lower, self.upper) == (-HELD, HELD) and self.drive is None
 
+    @property
+    def swings(self) -> bool:
+        """Whether it is a pivot that moves freely: neither a drive nor a spring is on it (an oscillating axle's)."""
+        return self.free and self.type == "revolute" and self.drive is None and self.spring is None
+
 
 @dataclass(frozen=True)
 class Cylinder:

@@ -57,15 +57,7 @@ class Block:
 def usual_base(mechanism: Mechanism) -> Literal["fixed", "floating"]:
     """In the air, or on the ground for a machine of which a part rolls freely about its long axis, as an articulated
     truck's trailer does: with nothing under its wheels it would turn over."""
-    rolls = any(
-        j.free
-        and j.drive is None
-        and j.spring is None
-        and j.type == "revolute"
-        and j.lower is None
-        and abs(j.axis[0]) > ALONG
-        for j in mechanism.joints
-    )
+    rolls = any(j.swings and j.lower is None and abs(j.axis[0]) > ALONG for j in mechanism.joints)
     return "floating" if rolls else "fixed"
 
 

@@ -241,7 +241,7 @@ class _Trip:
         """A free joint without drive or spring whose body carries a pair of wheels (an axle, a beam of a bogie), and
         their places in `wheels`."""
         for joint in self.mechanism.joints:
-            if joint.free and joint.drive is None and joint.spring is None and joint.type == "revolute":
+            if joint.swings:
                 pair = [i for i, w in enumerate(self.wheels) if w.joint.body0 == joint.body1]
                 if len(pair) == 2:
                     return joint, pair

@@ -117,13 +117,7 @@ def _balance(mechanism: Mechanism, chain: ClosedChain, state: State) -> tuple[Fl
         if not joint.cut:
             children.setdefault(joint.body0, []).append(joint.body1)
     for joint in mechanism.joints:
-        if (
-            not joint.free
-            or joint.spring is not None
-            or joint.drive is not None
-            or joint.type != "revolute"
-            or joint.lower is None
-        ):
+        if not joint.swings or joint.lower is None:
             continue
         swinging = _below(joint.body1, children)
         pose = placed[joint.body0]
