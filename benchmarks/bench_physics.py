@@ -76,14 +76,14 @@ def bench(file: Path, folder: Path) -> None:
     for label, oil in (("targets at the strokes' ends", None), ("levers, through the oil", Hydraulics(mechanism))):
         print(f"  all cylinders at once, {label}: {1e-3 * power(scene, mechanism, oil):.0f} kW at most")
     released, held = (creep(scene, brakes=brakes) for brakes in (False, True))
-    for detail in ("full", "light"):
-        place = folder.with_name(f"{folder.name}.{detail}")
+    for to, detail in (("mjcf", "full"), ("mjcf", "light"), ("mjcf-tendons", "light")):
+        place = folder.with_name(f"{folder.name}.{to}.{detail}")
         subprocess.run(
-            [sys.executable, "-m", "yellowiron", "export", file, "--to", "mjcf", "--detail", detail, "--out", place],
+            [sys.executable, "-m", "yellowiron", "export", file, "--to", to, "--detail", detail, "--out", place],
             check=True, capture_output=True,
         )  # fmt: skip
-        touching, rate = pace(place / "scene.xml")
-        print(f"  {detail} detail: {touching} colliders, {rate:.0f} steps a second on a core")
+        touching, freedoms, rate = pace(place / "scene.xml")
+        print(f"  {to}, {detail} detail: {touching} colliders, {freedoms} freedoms, {rate:.0f} steps a CPU second")
     print(f"  on 20 degrees: {1e3 * released:.1f} mm/s with its brakes released, {1e3 * held:.2f} with them set")
 
 
@@ -198,8 +198,8 @@ def _longest(model: mujoco.MjModel, seen: mujoco.MjData) -> float:
     return longest
 
 
-def pace(scene: Path) -> tuple[int, float]:
-    """Colliders of the machine, and steps a CPU second on the ground: the best of four runs."""
+def pace(scene: Path) -> tuple[int, int, float]:
+    """Colliders of the machine, its degrees of freedom, and steps a CPU second on the ground: the best of four runs."""
     model, data = load(scene)
     mujoco.mj_step(model, data, 1000)
     best = 0.0
@@ -207,7 +207,7 @@ def pace(scene: Path) -> tuple[int, float]:
         begun = time.process_time()
         mujoco.mj_step(model, data, 1500)
         best = max(best, 1500 / (time.process_time() - begun))
-    return int(np.sum(model.geom_contype != 0)) - 1, best
+    return int(np.sum(model.geom_contype != 0)) - 1, int(model.nv), best
 
 
 def power(scene: Path, mechanism: Mechanism, oil: Hydraulics | None) -> float:

@@ -162,11 +162,12 @@ def check(file: Path | str, *, machine: Machine | Mechanism | Path | str | None 
     joints, limits and masses are held against it over the full strokes."""
     if machine is None:
         return tuple(checks.check(Path(file)))
-    from yellowiron import kinematics, usd
+    from yellowiron import exporters, kinematics, usd
 
     mechanism = machine if isinstance(machine, Mechanism) else usd.read_mechanism(_file(machine))
     poses = [checks.Posed(strokes, bodies) for strokes, bodies in kinematics.stroke_poses(mechanism)]
-    return tuple(checks.check_against(Path(file), mechanism, poses))
+    reduced, _ = exporters.with_tendons(mechanism)
+    return tuple(checks.check_against(Path(file), mechanism, poses, reduced=reduced))
 
 
 def measure(machine: Machine | Mechanism | Path | str) -> tuple[Measurement, ...]:

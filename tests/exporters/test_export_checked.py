@@ -17,6 +17,7 @@ from yellowiron.model.mechanism import Mechanism
 
 FORMATS = {
     "mjcf": "small_loader.xml",
+    "mjcf-tendons": "small_loader.xml",
     "urdf": "urdf/small_loader.urdf",
     "sdf": "model.sdf",
     "drake": "small_loader.sdf",
@@ -67,6 +68,21 @@ def test_a_joint_that_stands_elsewhere_is_told(exported: dict[str, Path], mechan
     moved = changed(exported["mjcf"], tmp_path, r'(<joint name="barrel_joint"[^>]*pos=")0 ', r"\g<1>0.001 ")
     found = told(moved, mechanism)
     assert found["EXP002"].where == "barrel_joint" and "EXP006" not in found
+
+
+def test_a_tendon_that_pulls_elsewhere_is_told(exported: dict[str, Path], mechanism: Mechanism, tmp_path: Path) -> None:
+    slide = mechanism.cylinders[0].slide
+    moved = changed(exported["mjcf-tendons"], tmp_path, rf'(<site name="{slide}.1" pos=")[^ ]+ ', r"\g<1>0.3 ")
+    found = told(moved, mechanism)
+    assert found["EXP002"].where == slide and "EXP006" not in found
+
+
+def test_a_tendon_that_ends_early_is_told(exported: dict[str, Path], mechanism: Mechanism, tmp_path: Path) -> None:
+    slide = mechanism.cylinders[0].slide
+    short = changed(
+        exported["mjcf-tendons"], tmp_path, rf'(<spatial name="{slide}" [^>]*range=")([^ ]+) [^"]+', r"\g<1>\g<2> 1.0"
+    )
+    assert told(short, mechanism)["EXP003"].where == slide
 
 
 def test_a_limit_that_stops_the_machine_is_told(

@@ -28,7 +28,7 @@ def held(usd: Path, folder: Path) -> None:
 
 def agrees(usd: Path, folder: Path) -> None:
     """Every format's file, as `check` reads it, against the machine."""
-    for to in ("mjcf", "urdf", "sdf", "drake"):
+    for to in ("mjcf", "mjcf-tendons", "urdf", "sdf", "drake"):
         file = yellowiron.export(usd, to=to, out=folder / to)
         (found,) = [f for f in yellowiron.check(file, machine=usd) if f.code.startswith("EXP")]
         assert found.code == "EXP006", (to, found)

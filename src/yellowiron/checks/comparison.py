@@ -48,7 +48,8 @@ class _Miss:
 def compare(view: View, mechanism: Mechanism, poses: Sequence[Posed]) -> tuple[Finding, ...]:
     """The findings of a file against its machine, and last how far they agree.
 
-    `view`: a file of one of the formats that `export` writes. `poses`: of the machine, over its strokes.
+    `view`: a file of one of the formats that `export` writes. `poses`: of the machine, over its strokes. A distance
+    that has a driven slide's name stands for its cylinder.
     """
     bodies = _bodies(view, mechanism)
     joints = [j for j in view.joints if j.enabled and all(end in bodies or not end for end in j.bodies)]
@@ -115,6 +116,8 @@ def _misses(joint: StageJoint, bodies: Mapping[str, str], poses: Sequence[Posed]
     for pose in poses:
         moved = [pose.bodies[bodies[end]] if end else np.eye(4) for end in joint.bodies]
         missed, coordinate = _between(joint, moved[0], moved[1])
+        if joint.type == "distance" and coordinate is not None:
+            missed = abs(coordinate - pose.strokes.get(joint.path, coordinate))
         if off is None or missed > off.by:
             off = _Miss(missed, pose)
         if coordinate is not None:
@@ -150,6 +153,8 @@ def _between(joint: StageJoint, first: Floats, second: Floats) -> tuple[float, f
         return float(np.linalg.norm(gap - along * ends[0][1][:, 0]) + np.linalg.norm(turn)), along
     if joint.type == "fixed":
         return float(np.linalg.norm(gap) + np.linalg.norm(turn)), None
+    if joint.type == "distance":
+        return 0.0, float(np.linalg.norm(gap) - np.linalg.norm(joint.sides[1].position - joint.sides[0].position))
     return 0.0, None
 
 

@@ -29,9 +29,12 @@ def check(path: str | Path) -> tuple[Finding, ...]:
     return _sorted(_of_exchange(*read_exchange(file)) if is_exchange(file) else _of_stage(file))
 
 
-def check_against(path: str | Path, mechanism: Mechanism, poses: Sequence[Posed]) -> tuple[Finding, ...]:
+def check_against(
+    path: str | Path, mechanism: Mechanism, poses: Sequence[Posed], *, reduced: Mechanism | None = None
+) -> tuple[Finding, ...]:
     """`check`, and the file held against the machine that it was written from: its bodies, joints, limits and masses
-    over the machine's `poses` (codes `EXP…`). Errors as in `check`, and where the file is a USD file."""
+    over the machine's `poses` (codes `EXP…`). Errors as in `check`, and where the file is a USD file. `reduced`: the
+    machine as it is where its cylinders are distances, for files that write them so."""
     file = Path(path)
     if not is_exchange(file):
         raise YellowironError(
@@ -39,6 +42,9 @@ def check_against(path: str | Path, mechanism: Mechanism, poses: Sequence[Posed]
             hint="Give a URDF, SDFormat or MJCF file; USD files need no --machine.",
         )  # fmt: skip
     view, own = read_exchange(file)
+    slides = {cylinder.slide for cylinder in mechanism.cylinders}
+    if reduced is not None and any(j.type == "distance" and j.path in slides for j in view.joints):
+        mechanism = reduced
     view = with_loose(view, {joint.name for joint in mechanism.joints if joint.free})
     return _sorted((*_of_exchange(view, own), *compare(view, mechanism, poses)))
 

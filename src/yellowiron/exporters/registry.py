@@ -46,6 +46,13 @@ class Exporter:
 EXPORTERS: Mapping[str, Exporter] = MappingProxyType(
     {
         "mjcf": Exporter("MJCF", "yellowiron.exporters.mjcf.document:export_mjcf", scene="scene.xml", detailed=True),
+        "mjcf-tendons": Exporter(
+            "MJCF, its cylinders as tendons",
+            "yellowiron.exporters.mjcf.document:export_tendons",
+            scene="scene.xml",
+            unsaid="yellowiron.exporters.mjcf.document:tendons_unsaid",
+            detailed=True,
+        ),
         "urdf": Exporter(
             "URDF for ROS 2",
             "yellowiron.exporters.ros.urdf:export_urdf",

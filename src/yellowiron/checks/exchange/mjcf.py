@@ -2,7 +2,8 @@
 
 from __future__ import annotations
 
-from collections.abc import Collection, Mapping
+from collections.abc import Collection, Iterable, Iterator, Mapping
+from dataclasses import replace
 from pathlib import Path
 from typing import Any
 
@@ -40,9 +41,11 @@ def read_mjcf(path: Path, model: Any) -> View:
     names = [model.body(i).name or f"body {i}" for i in range(model.nbody)]
     names[0] = ""
     links = [_link(model, data, i, names[i]) for i in range(1, model.nbody)]
-    moved, leaders = _moved(model), _leaders(model)
+    tendons = list(_tendons(model, data, names))
+    moved, leaders, pulled = _moved(model), _leaders(model), _between(model, [ends for _, ends in tendons])
     tree = [j for i in range(1, model.nbody) for j in _joints(model, data, i, names, moved=moved, leaders=leaders)]
-    return view_of(path.name, links, [*tree, *_equalities(model, data, names)])
+    tree = [replace(joint, pulled=joint.name in pulled) for joint in tree]
+    return view_of(path.name, links, [*tree, *_equalities(model, data, names), *(read for read, _ in tendons)])
 
 
 def _link(model: Any, data: Any, index: int, name: str) -> LinkRead:
@@ -115,6 +118,42 @@ def _moved(model: Any) -> set[int]:
         if model.dof_frictionloss[int(model.jnt_dofadr[joint])] > 0.0:
             found.add(joint)
     return found
+
+
+def _tendons(model: Any, data: Any, names: list[str]) -> Iterator[tuple[JointRead, tuple[int, int]]]:
+    """Straight tendons that an actuator pulls, as distances between two points with limits from the drawn length, and
+    the bodies' numbers."""
+    import mujoco
+
+    kinds = model.actuator_trntype[: model.nu]
+    pulled = {int(model.actuator_trnid[i][0]) for i in range(model.nu) if kinds[i] == mujoco.mjtTrn.mjTRN_TENDON}
+    for index in sorted(pulled):
+        start, count = int(model.tendon_adr[index]), int(model.tendon_num[index])
+        if count != 2 or any(model.wrap_type[start : start + 2] != mujoco.mjtWrap.mjWRAP_SITE):
+            continue
+        sites = [int(model.wrap_objid[start + i]) for i in (0, 1)]
+        points = [np.array(data.site_xpos[site]) for site in sites]
+        ends = int(model.site_bodyid[sites[0]]), int(model.site_bodyid[sites[1]])
+        drawn = float(np.linalg.norm(points[1] - points[0]))
+        if drawn == 0.0:
+            continue
+        name = model.tendon(index).name or f"tendon {index}"
+        along = (points[1] - points[0]) / drawn
+        low, high = (float(v) - drawn for v in model.tendon_range[index])
+        limits = (low, high) if model.tendon_limited[index] else (None, None)
+        one, other = (names[end] for end in ends)
+        yield JointRead(name, "distance", one, other, (points[0], points[1]), along, *limits), ends
+
+
+def _between(model: Any, pairs: Iterable[tuple[int, int]]) -> set[str]:
+    """The joints of the tree on the way from one body to another, of all pairs: what pulls these two holds them."""
+
+    def up(body: int) -> list[int]:
+        return [body, *up(int(model.body_parentid[body]))] if body else [0]
+
+    ways = [set(up(one)) ^ set(up(other)) for one, other in pairs]
+    bodies = {body for way in ways for body in way}
+    return {model.joint(joint).name for joint in range(model.njnt) if int(model.jnt_bodyid[joint]) in bodies}
 
 
 def _leaders(model: Any) -> dict[int, Led]:

@@ -22,6 +22,7 @@ _FREEDOMS: Mapping[str, tuple[str, ...]] = {
     "spherical": ANGULAR,
     "planar": ("transY", "transZ", "rotX"),
     "free": (*LINEAR, *ANGULAR),
+    "distance": (*LINEAR, *ANGULAR),
 }
 _NOTHING = 0.01
 """kg: what stands between the pivots of a ball weighs less."""
@@ -43,8 +44,10 @@ class LinkRead:
 
 @dataclass(frozen=True, eq=False)
 class JointRead:
-    """A joint between two links ("" the world): `kind` one of fixed, revolute, prismatic, spherical, planar, free;
-    `anchors` (3,) at either side and `axis` (3,) in the model. `moved`: whether something drives or holds it."""
+    """A joint between two links ("" the world): `kind` one of fixed, revolute, prismatic, spherical, planar, free,
+    distance (limits from the drawn one);
+    `anchors` (3,) at either side and `axis` (3,) in the model. `moved`: whether something drives or holds it;
+    `pulled`: whether a driven distance spans it."""
 
     name: str
     kind: str
@@ -56,6 +59,7 @@ class JointRead:
     upper: float | None = None
     cut: bool = False
     moved: bool = False
+    pulled: bool = False
     leader: str | None = None
     ratio: float = 1.0
     offset: float = 0.0
@@ -168,7 +172,7 @@ def _joint(joint: JointRead) -> StageJoint:
     return StageJoint(
         path=joint.name, type="generic" if joint.kind in ("planar", "free") else joint.kind, sides=(first, second),
         enabled=True, cut=joint.cut, freedoms=_FREEDOMS[joint.kind], lower=joint.lower, upper=joint.upper,
-        actuated=joint.moved, held=joint.leader is not None, leader=joint.leader, ratio=joint.ratio,
+        actuated=joint.moved, held=joint.leader is not None or joint.pulled, leader=joint.leader, ratio=joint.ratio,
         offset=joint.offset,
     )  # fmt: skip
 

@@ -141,7 +141,11 @@ def beyond_a_turn(view: View) -> Remarks:
 )
 def unlimited_slide(view: View) -> Remarks:
     """A slide has no limits."""
+    # What a driven distance between its bodies reins in has its limits.
+    reined = {frozenset(j.bodies) for j in view.joints if j.type == "distance" and j.upper is not None}
     for joint in view.joints:
+        if frozenset(joint.bodies) in reined:
+            continue
         if joint.type == "prismatic" and joint.enabled and (joint.lower is None or joint.upper is None):
             ends = [n for n, v in (("lower", joint.lower), ("upper", joint.upper)) if v is None]
             yield joint.path, f"It has no {' and no '.join(ends)} limit."

@@ -3,10 +3,11 @@
 from __future__ import annotations
 
 import math
-from collections.abc import Iterator
+from collections.abc import Iterator, Mapping, Sequence
 from xml.etree import ElementTree as ET
 
 from yellowiron.exporters.mjcf.hardness import SOLIMP, SOLREF
+from yellowiron.exporters.tendons import Tendon
 from yellowiron.exporters.values import row, text
 from yellowiron.model.mechanism import Actuator, ActuatorJoint, Drive, Joint, Mechanism, Spring
 
@@ -18,30 +19,45 @@ def actuator_names(mechanism: Mechanism) -> dict[str, dict[str, str]]:
     """Actuator → its controls in MJCF, each with its joint: one control named as the actuator, or `actuator.joint` for
     each joint of a motor with several. Every control is positive in the actuator's positive sense. They are the first
     of the model's controls; those after them are the dampers of `DAMPING`, which do nothing."""
+    joints = {joint.name: joint for joint in mechanism.joints}
     return {
-        actuator.name: {name: entry.joint for name, entry in _controls(actuator, mechanism).items()}
+        actuator.name: {name: entry.joint for name, entry in _controls(actuator, joints).items()}
         for actuator in mechanism.actuators
     }
 
 
-def section(mechanism: Mechanism) -> ET.Element:
-    """The `actuator` element: every control, then the dampers."""
+def section(mechanism: Mechanism, tendons: Sequence[Tendon] = ()) -> ET.Element:
+    """The `actuator` element: every control, then the dampers. `tendons` stand for slides that are no joints."""
     made = ET.Element("actuator")
+    pulled = {tendon.slide.name: tendon for tendon in tendons}
+    joints = {joint.name: joint for joint in (*mechanism.joints, *(tendon.slide for tendon in tendons))}
     driven = [
-        (name, entry.sign, mechanism.joint(entry.joint))
+        (name, entry.sign, joints[entry.joint])
         for actuator in mechanism.actuators
-        for name, entry in _controls(actuator, mechanism).items()
+        for name, entry in _controls(actuator, joints).items()
     ]
     for name, sign, joint in driven:
         if joint.drive is not None:
             servo = dict(_servo(joint, joint.drive, sign))
-            ET.SubElement(made, joint.drive.kind, {"name": name, "joint": joint.name, **servo})
+            if joint.name in pulled:
+                servo = {"tendon": joint.name, **_of_length(servo, sign * pulled[joint.name].length)}
+                ET.SubElement(made, "general", {"name": name, **servo})
+            else:
+                ET.SubElement(made, joint.drive.kind, {"name": name, "joint": joint.name, **servo})
     for name, _, joint in driven:
         if joint.drive is not None and joint.drive.rated:
-            values = {"name": name + DAMPING, "joint": joint.name, "ctrlrange": "0 1", "gainprm": "0"}
+            values = {"tendon" if joint.name in pulled else "joint": joint.name, "ctrlrange": "0 1", "gainprm": "0"}
             values |= {"biastype": "affine", "biasprm": row((0.0, 0.0, -joint.drive.damping))}
-            ET.SubElement(made, "general", values)
+            ET.SubElement(made, "general", {"name": name + DAMPING, **values})
     return made
+
+
+def _of_length(servo: Mapping[str, str], drawn: float) -> dict[str, str]:
+    """A position servo's attributes as those of one that is told a length less the drawn one."""
+    stiffness, damping = float(servo["kp"]), float(servo.get("kv", 0.0))
+    left = {key: value for key, value in servo.items() if key not in ("kp", "kv")}
+    bias = row((stiffness * drawn, -stiffness, -damping))
+    return {"gainprm": servo["kp"], "biastype": "affine", "biasprm": bias, **left}
 
 
 def brakes(mechanism: Mechanism) -> ET.Element:
@@ -72,8 +88,7 @@ def spring(held: Spring, base: str) -> dict[str, str]:
     return {name: text(value) for name, value in values.items() if value != 0.0}
 
 
-def _controls(actuator: Actuator, mechanism: Mechanism) -> dict[str, ActuatorJoint]:
-    joints = {joint.name: joint for joint in mechanism.joints}
+def _controls(actuator: Actuator, joints: Mapping[str, Joint]) -> dict[str, ActuatorJoint]:
     entries = actuator.joints[:1] if actuator.kind == "cylinder" else actuator.joints
     driven = [entry for entry in entries if joints[entry.joint].drive is not None and not joints[entry.joint].cut]
     if len(driven) == 1:

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from dataclasses import replace
 from pathlib import Path
 from typing import Literal
 from xml.etree import ElementTree as ET
@@ -13,6 +14,7 @@ from yellowiron.exporters.geometry import BodyGeometry, Collider, Geometry, read
 from yellowiron.exporters.mjcf import actuators, sensors
 from yellowiron.exporters.mjcf.hardness import SOLIMP
 from yellowiron.exporters.shapes import ConvexPieces, placed
+from yellowiron.exporters.tendons import Tendon, with_tendons
 from yellowiron.exporters.values import axes_of, minus, quaternion, row, srgb, text
 from yellowiron.model.errors import MechanismError
 from yellowiron.model.geometry import Color, Floats
@@ -28,6 +30,8 @@ _BARE = "0.8 0.65 0.2 1"
 
 _JOINTS = {"revolute": "hinge", "prismatic": "slide", "spherical": "ball"}
 _FAR = 1e6
+_THIN = 0.02
+"""Metres: how thick a tendon is shown whose rod is not known."""
 _POSITIONS = {"revolute": 1, "prismatic": 1, "spherical": 4, "fixed": 0}
 
 
@@ -38,6 +42,7 @@ def export_mjcf(
     *,
     base: Literal["floating", "fixed"] = "floating",
     timestep: float = TIMESTEP,
+    cylinders: Literal["bodies", "tendons"] = "bodies",
 ) -> Path:
     """Writes `<machine>.xml`, `scene.xml` (the machine on a ground plane, with light) and `assets/` into a folder,
     and `lidar.xml` where there is one; returns the machine's file.
@@ -46,14 +51,20 @@ def export_mjcf(
     where all coordinates and controls are 0; controls are an actuator's coordinate: metres of its driven slide, rad/s
     of a motor. The machine does not collide with itself: give `conaffinity="1"` to its `collision` class to change
     that; bodies that are jointed or overlap as drawn are excluded all the same. Of a geometry in light
-    detail the colliders are what is seen, too.
+    detail the colliders are what is seen, too. With `cylinders` as tendons their halves are no bodies (`with_tendons`);
+    controls are what they are without.
 
     Raises `MechanismError` where the joints are no tree with cuts.
     """
     shapes = read_geometry(geometry)
+    tendons: tuple[Tendon, ...] = ()
+    if cylinders == "tendons":
+        mechanism, tendons = with_tendons(mechanism)
+        left = {body.name for body in mechanism.bodies}
+        shapes = replace(shapes, filtered=tuple(pair for pair in shapes.filtered if left.issuperset(pair)))
     folder.mkdir(parents=True, exist_ok=True)
     name = unique(plain(mechanism.name), {"scene", "lidar"})
-    document = _Document(mechanism, shapes, Assets(folder / ASSETS), base, timestep)
+    document = _Document(mechanism, shapes, Assets(folder / ASSETS), base, timestep, tendons)
     _write(document.element(name), folder / f"{name}.xml")
     _write(_scene(mechanism, f"{name}.xml"), folder / "scene.xml")
     beams = sensors.section(mechanism, lidars=True)
@@ -64,11 +75,40 @@ def export_mjcf(
     return folder / f"{name}.xml"
 
 
+def export_tendons(mechanism: Mechanism, geometry: Geometry | str | Path, folder: Path) -> Path:
+    """`export_mjcf` with cylinders as tendons."""
+    return export_mjcf(mechanism, geometry, folder, cylinders="tendons")
+
+
+def tendons_unsaid(mechanism: Mechanism) -> tuple[str, ...]:
+    """What MJCF with tendons says in another way."""
+    reduced, tendons = with_tendons(mechanism)
+    gone = len(mechanism.bodies) - len(reduced.bodies)
+    stays = [c.name for c in mechanism.cylinders if c.barrel in {b.name for b in reduced.bodies}]
+    words = [
+        f"{gone} halves of cylinders are no bodies: their mass is on their pins, and they touch nothing.",
+        f"{len(tendons)} tendons have the names of the cylinders' slides; their length is the pins' distance, controls "
+        "are strokes from the drawn pose as ever.",
+    ]
+    if stays:
+        words.append(f"Cylinders that stay bodies: {', '.join(stays)}.")
+    return tuple(words)
+
+
 class _Document:
     """One machine's document under construction."""
 
-    def __init__(self, mechanism: Mechanism, geometry: Geometry, assets: Assets, base: str, timestep: float) -> None:
+    def __init__(
+        self,
+        mechanism: Mechanism,
+        geometry: Geometry,
+        assets: Assets,
+        base: str,
+        timestep: float,
+        tendons: tuple[Tendon, ...],
+    ) -> None:
         self._mechanism = mechanism
+        self._tendons = tendons
         self._geometry = geometry
         self._assets = assets
         self._base = base
@@ -100,8 +140,12 @@ class _Document:
         top.append(self._defaults())
         top.append(self._asset())
         top.append(world)
-        held = (self._contact(), self._equality(), self._tendon(), actuators.section(self._mechanism))
-        own = (actuators.brakes(self._mechanism), sensors.section(self._mechanism), self._keyframe())
+        held = (self._contact(), self._equality(), self._tendon(), actuators.section(self._mechanism, self._tendons))
+        own = (
+            actuators.brakes(self._mechanism),
+            sensors.section(self._mechanism, self._tendons),
+            self._keyframe(),
+        )
         for section in (*held, *own):
             if len(section):
                 top.append(section)
@@ -176,6 +220,11 @@ class _Document:
             if cut.cut and cut.type == "distance" and body.name in (cut.body0, cut.body1):
                 number = int(body.name == cut.body1)
                 ET.SubElement(element, "site", name=f"{cut.name}.{number}", pos=row(minus(cut.anchor, body.origin)))
+        for tendon in self._tendons:
+            for number, (held, point) in enumerate(tendon.ends):
+                if held == body.name:
+                    place = row(minus(point, body.origin))
+                    ET.SubElement(element, "site", name=f"{tendon.slide.name}.{number}", pos=place, group="4")
         for following in self._children.get(body.name, ()):
             self._body(element, self._mechanism.body(following.body1), following)
 
@@ -279,8 +328,19 @@ class _Document:
         return section
 
     def _tendon(self) -> ET.Element:
-        """A distance joint is a straight tendon between its two points, with its least and greatest length."""
+        """A distance joint is a straight tendon between its two points, with its least and greatest length; so is a
+        cylinder without bodies, whose ends of stroke and drive's own mass it has."""
         section = ET.Element("tendon")
+        for tendon in self._tendons:
+            slide = tendon.slide
+            values = {"name": slide.name, "width": text(0.5 * tendon.cylinder.rod_diameter or _THIN)}
+            if slide.lower is not None and slide.upper is not None:
+                values["range"] = row((tendon.length + slide.lower, tendon.length + slide.upper))
+            if slide.drive is not None:
+                values |= actuators.limits(slide.drive)
+            spatial = ET.SubElement(section, "spatial", {**values, "rgba": _BARE})
+            for number in (0, 1):
+                ET.SubElement(spatial, "site", site=f"{slide.name}.{number}")
         for joint in self._mechanism.joints:
             if joint.cut and joint.type == "distance":
                 ends = (joint.lower or 0.0, joint.upper if joint.upper is not None else _FAR)

@@ -8,6 +8,7 @@
 | lidar | a level fan of `rangefinder`s, `NAME.0` forward and on to the left (a full scan is a renderer's work) |
 | contact | a box site around the body; `touch` `NAME`, N |
 | joint_encoder, cylinder_encoder | `jointpos` `NAME`, from the drawn pose; on a cut pivot `framequat`, body1 in body0 |
+| … of a cylinder that is a tendon | `tendonpos` `NAME`, between its pins; its pressure `tendonactuatorfrc` |
 | cylinder_pressure | `jointactuatorfrc` `NAME` of the driven slide, N: pressure is force by area, docs/sensors.md |
 
 Rays against every mesh at every step are slow (a fifth of the speed), so the lidars' `sensor` section is a file apart,
@@ -17,11 +18,12 @@ which a scene may include.
 from __future__ import annotations
 
 import math
-from collections.abc import Iterator
+from collections.abc import Iterator, Mapping, Sequence
 from xml.etree import ElementTree as ET
 
 import numpy as np
 
+from yellowiron.exporters.tendons import Tendon
 from yellowiron.exporters.values import axes_of, minus, quaternion, row, text
 from yellowiron.model.geometry import Floats
 from yellowiron.model.mechanism import Body, Joint, Mechanism
@@ -56,18 +58,21 @@ def on_body(mechanism: Mechanism, body: Body) -> Iterator[ET.Element]:
             yield ET.Element("site", {"name": _site(sensor, mechanism), **place, "quat": row(quaternion(axes))})
 
 
-def section(mechanism: Mechanism, *, lidars: bool = False) -> ET.Element:
-    """The `sensor` section of the lidars, or of all others."""
+def section(mechanism: Mechanism, tendons: Sequence[Tendon] = (), *, lidars: bool = False) -> ET.Element:
+    """The `sensor` section of the lidars, or of all others. `tendons` stand for slides that are no joints."""
     made = ET.Element("sensor")
+    slides = {tendon.slide.name: tendon.slide for tendon in tendons}
     for sensor in mechanism.sensors:
         if (sensor.type == "lidar") is not lidars:
             continue
-        for tag, name, values in _sensed(sensor, mechanism):
+        for tag, name, values in _sensed(sensor, mechanism, slides):
             ET.SubElement(made, tag, {"name": name, **values})
     return made
 
 
-def _sensed(sensor: Sensor, mechanism: Mechanism) -> Iterator[tuple[str, str, dict[str, str]]]:
+def _sensed(
+    sensor: Sensor, mechanism: Mechanism, slides: Mapping[str, Joint]
+) -> Iterator[tuple[str, str, dict[str, str]]]:
     """(element, name, attributes) of everything that a sensor reads."""
     name = sensor.name
     site = {"site": _site(sensor, mechanism)}
@@ -85,6 +90,8 @@ def _sensed(sensor: Sensor, mechanism: Mechanism) -> Iterator[tuple[str, str, di
             yield "rangefinder", f"{name}.{number}", {"site": f"{name}.{number}", "cutoff": cutoff}
     elif sensor.type == "contact":
         yield "touch", name, site
+    elif sensor.type in ("joint_encoder", "cylinder_encoder") and sensor.joint in slides:
+        yield "tendonpos", name, {"tendon": sensor.joint}
     elif sensor.type in ("joint_encoder", "cylinder_encoder"):
         joint = mechanism.joint(sensor.joint)
         if not joint.cut and joint.type in ("revolute", "prismatic"):
@@ -93,18 +100,20 @@ def _sensed(sensor: Sensor, mechanism: Mechanism) -> Iterator[tuple[str, str, di
             bodies = {"objtype": "xbody", "objname": joint.body1, "reftype": "xbody", "refname": joint.body0}
             yield "framequat", name, bodies
     elif sensor.type == "cylinder_pressure":
-        driven = _driven(mechanism, sensor.cylinder)
-        if driven is not None:
+        driven = _driven(mechanism, sensor.cylinder, slides)
+        if driven is not None and driven.name in slides:
+            yield "tendonactuatorfrc", name, {"tendon": driven.name}
+        elif driven is not None:
             yield "jointactuatorfrc", name, {"joint": driven.name}
 
 
-def _driven(mechanism: Mechanism, cylinder: str) -> Joint | None:
+def _driven(mechanism: Mechanism, cylinder: str, slides: Mapping[str, Joint]) -> Joint | None:
     """The slide that carries the force of a cylinder: its own, or where it is passive its twin's."""
-    joints = {joint.name: joint for joint in mechanism.joints}
+    joints = {joint.name: joint for joint in mechanism.joints} | dict(slides)
     for actuator in mechanism.actuators:
-        slides = [joints[entry.joint] for entry in actuator.joints if entry.joint in joints]
+        moved = [joints[entry.joint] for entry in actuator.joints if entry.joint in joints]
         if cylinder in actuator.cylinders:
-            return next((joint for joint in slides if joint.drive is not None and not joint.cut), None)
+            return next((joint for joint in moved if joint.drive is not None and not joint.cut), None)
     return None
 
 

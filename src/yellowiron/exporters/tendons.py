@@ -1,0 +1,201 @@
+"""A machine whose hydraulic cylinders are forces between two points: fewer bodies and loops, hinges as coordinates."""
+
+from __future__ import annotations
+
+from collections.abc import Collection, Iterable, Iterator, Sequence
+from dataclasses import dataclass, replace
+
+import numpy as np
+
+from yellowiron.model.geometry import Floats
+from yellowiron.model.mechanism import Body, Cylinder, Joint, Mechanism, Vector
+from yellowiron.support.vectors import triple
+
+ASIDE = 1e-3
+"""Of a cylinder's length: so far off its line a pin may be, else its stroke is not the distance between its pins."""
+_SAME = 1e-6
+"""Metres between pins that are one."""
+
+
+@dataclass(frozen=True)
+class Tendon:
+    """What is left of a cylinder: its `slide`, which is no joint any more, the bodies that it was pinned to with the
+    points there (machine frame, drawn pose), and their distance as drawn, metres: of a stroke `q` it is `length` + q.
+    """
+
+    cylinder: Cylinder
+    slide: Joint
+    ends: tuple[tuple[str, Vector], tuple[str, Vector]]
+    length: float
+
+
+def with_tendons(mechanism: Mechanism) -> tuple[Mechanism, tuple[Tendon, ...]]:
+    """The machine without the halves of its cylinders, and the tendons that stand for those of them that are driven.
+
+    A cylinder stays that has no pins (rams), whose pins are off its line, whose halves carry more than what is on their
+    pins, or without which something would hang on nothing. Half its mass's moment goes to either pin, so that mass and
+    centre of mass are the machine's as drawn. What was pinned to a pin of it is pinned to each other there; the tree
+    runs over the pivots that are left, with as few cuts as there are loops, and what no drive moves in these has no
+    limits but the strokes. `actuators`, `cylinders` and `loops` are as before.
+    """
+    joints, tendons, gone = list(mechanism.joints), [], dict[str, Tendon]()
+    for cylinder in mechanism.cylinders:
+        tendon = _tendon(cylinder, joints)
+        needed = {mechanism.root, *mechanism.floating, *(name for each in gone.values() for name, _ in each.ends)}
+        if tendon is None or {cylinder.barrel, cylinder.rod} & needed:
+            continue
+        left = _pinned_together(cylinder, tendon, joints)
+        others = {b.name for b in mechanism.bodies} - {cylinder.barrel, cylinder.rod} - set(gone)
+        if _reached(mechanism, left) >= others:
+            joints = left
+            gone |= {cylinder.barrel: tendon, cylinder.rod: tendon}
+            if tendon.slide.drive is not None:
+                tendons.append(tendon)
+    if not gone:
+        return mechanism, ()
+    bodies = tuple(_heavier(body, mechanism, gone) for body in mechanism.bodies if body.name not in gone)
+    sites = tuple(site for site in mechanism.sites if site.body not in gone)
+    kept = tuple(s for s in mechanism.sensors if s.body not in gone and not _of_lost(s.joint, joints, tendons))
+    tree = tuple(_tree(mechanism, joints))
+    return replace(mechanism, bodies=bodies, joints=tree, sites=sites, sensors=kept), tuple(tendons)
+
+
+def _of_lost(joint: str, joints: Iterable[Joint], tendons: Iterable[Tendon]) -> bool:
+    """Whether a sensor's joint is neither there nor a tendon."""
+    return bool(joint) and joint not in {j.name for j in joints} | {t.slide.name for t in tendons}
+
+
+def _tendon(cylinder: Cylinder, joints: Sequence[Joint]) -> Tendon | None:
+    """Of a cylinder that pins hold on its line."""
+    named = {joint.name: joint for joint in joints}
+    slide = named.get(cylinder.slide)
+    pins = [named[name] for name in cylinder.pins if name in named]
+    led = {j.follows.joint for j in joints if j.follows is not None}
+    if slide is None or len(pins) != 2 or slide.follows is not None or slide.name in led:
+        return None
+    points = [_on_line(pin, slide) for pin in pins]
+    along, between = np.asarray(slide.axis), points[1] - points[0]
+    length = float(np.linalg.norm(between))
+    start, aside = np.asarray(slide.anchor), 0.0
+    for point in points:
+        off = point - start
+        aside = max(aside, float(np.linalg.norm(off - (off @ along) * along)))
+    for body, pin in ((cylinder.barrel, pins[0]), (cylinder.rod, pins[1])):
+        others = [j for j in joints if body in (j.body0, j.body1) and j not in (slide, pin)]
+        if not all(_one_pin(pin, other) for other in others) or body not in (pin.body0, pin.body1):
+            return None
+    if aside > ASIDE * length:
+        return None
+    held = [_other(pin, half) for pin, half in zip(pins, (cylinder.barrel, cylinder.rod), strict=True)]
+    return Tendon(cylinder, slide, ((held[0], triple(points[0])), (held[1], triple(points[1]))), length)
+
+
+def _on_line(pin: Joint, slide: Joint) -> Floats:
+    """The point of a pin's axis nearest to the slide's line; a ball's own. A pin is anchored anywhere on its axis."""
+    at = np.asarray(pin.anchor, dtype=np.float64)
+    if pin.type != "revolute":
+        return at
+    axis, along = np.asarray(pin.axis), np.asarray(slide.axis)
+    across = np.cross(axis, along)
+    square = float(across @ across)
+    if square < _SAME:
+        return at
+    return np.asarray(at + float(np.cross(np.subtract(slide.anchor, at), along) @ across) / square * axis)
+
+
+def _one_pin(one: Joint, other: Joint) -> bool:
+    """Whether two pivots turn about one line."""
+    apart = np.subtract(other.anchor, one.anchor)
+    axis = np.asarray(one.axis)
+    off = apart - (apart @ axis) * axis
+    pivots = one.type == other.type == "revolute"
+    return pivots and float(np.linalg.norm(off)) < _SAME and abs(float(axis @ np.asarray(other.axis))) > 1.0 - _SAME
+
+
+def _other(joint: Joint, body: str) -> str:
+    return joint.body1 if joint.body0 == body else joint.body0
+
+
+def _pinned_together(cylinder: Cylinder, tendon: Tendon, joints: Iterable[Joint]) -> list[Joint]:
+    """The joints without the cylinder's; what else was on its pins is on the body that the tendon pulls there."""
+    ends = dict(zip((cylinder.barrel, cylinder.rod), (name for name, _ in tendon.ends), strict=True))
+    left = []
+    for joint in joints:
+        if joint.name in (cylinder.slide, *cylinder.pins):
+            continue
+        for half, held in ends.items():
+            if half in (joint.body0, joint.body1):
+                joint = replace(joint, body0=held, body1=_other(joint, half))
+        left.append(joint)
+    return left
+
+
+def _reached(mechanism: Mechanism, joints: Collection[Joint]) -> set[str]:
+    found = {mechanism.root, *mechanism.floating}
+    links = [joint for joint in joints if joint.type != "distance"]
+    while more := {b for j in links if {j.body0, j.body1} & found for b in (j.body0, j.body1)} - found:
+        found |= more
+    return found
+
+
+def _tree(mechanism: Mechanism, joints: Sequence[Joint]) -> Iterator[Joint]:
+    """The joints, in their order: those that lead to a body from the root, the others cut. Slides, driven joints and
+    those that follow are in the tree, then what was, then pivots."""
+
+    def rank(joint: Joint) -> tuple[bool, bool, bool]:
+        stays = joint.type == "prismatic" or joint.drive is not None or joint.follows is not None
+        return not stays, joint.cut, joint.type == "spherical"
+
+    group = {body.name: body.name for body in mechanism.bodies}
+    heads = (mechanism.root, *mechanism.floating)
+
+    def head(body: str) -> str:
+        while group[body] != body:
+            body = group[body]
+        return body
+
+    inside = set()
+    for joint in sorted((j for j in joints if j.type != "distance"), key=rank):
+        one, other = head(joint.body0), head(joint.body1)
+        if one != other and not (one in heads and other in heads):
+            first, second = (one, other) if one in heads else (other, one)
+            group[second] = first
+            inside.add(joint.name)
+    reached = set(heads)
+    turned: set[str] = set()
+    while grown := [j for j in joints if j.name in inside and len({j.body0, j.body1} & reached) == 1]:
+        turned |= {j.name for j in grown if j.body1 in reached}
+        reached |= {body for j in grown for body in (j.body0, j.body1)}
+    looped = {name for loop in mechanism.loops for name in (*loop.joints, loop.cut)}
+    for joint in joints:
+        if joint.name in looped and joint.drive is None and joint.spring is None:
+            joint = replace(joint, lower=None, upper=None)
+        if joint.name not in inside:
+            yield replace(joint, cut=True)
+            continue
+        if joint.name in turned:
+            joint = replace(joint, body0=joint.body1, body1=joint.body0, axis=triple(-np.asarray(joint.axis)))
+        yield replace(joint, cut=False)
+
+
+def _heavier(body: Body, mechanism: Mechanism, gone: dict[str, Tendon]) -> Body:
+    """A body with what the cylinders' halves weigh on its pins, as points: as levers on their two pins they would."""
+    points: list[tuple[float, Floats]] = []
+    for name, tendon in gone.items():
+        half = mechanism.body(name)
+        (first, start), (second, end) = tendon.ends
+        along = np.subtract(end, start)
+        share = float(np.subtract(half.center_of_mass, start) @ along) / float(along @ along)
+        for held, part, at in ((first, 1.0 - share, start), (second, share, end)):
+            if held == body.name:
+                points.append((part * half.mass, np.asarray(at, dtype=np.float64)))
+    if not points:
+        return body
+    own = np.asarray(body.center_of_mass, dtype=np.float64)
+    mass = body.mass + sum(m for m, _ in points)
+    center = (body.mass * own + sum((m * at for m, at in points), np.zeros(3))) / mass
+    inertia = np.asarray(body.inertia, dtype=np.float64).copy()
+    for m, place in ((body.mass, own), *points):
+        arm = place - center
+        inertia += m * (float(arm @ arm) * np.eye(3) - np.outer(arm, arm))
+    return replace(body, mass=mass, center_of_mass=triple(center), inertia=inertia)
