@@ -10,6 +10,7 @@ import numpy as np
 import pytest
 from in_engines import need
 from plain_engines import play, world_with
+from pxr import Usd, UsdPhysics
 
 from kit.machines import small_machine
 from kit.machines.simple_machines import write
@@ -80,6 +81,22 @@ def test_mjcf_has_the_brakes_for_whoever_sets_them(written: tuple[Mechanism, Pat
         mujoco.mj_step(model, data, 2000)
         turned[brakes] = abs(float(data.qpos[0]))
     assert turned[False] > 0.3 and turned[True] < 1e-3
+
+
+def test_a_set_brake_is_a_stiff_spring_as_strong_as_it_where_friction_alone_creeps(
+    written: tuple[Mechanism, Path],
+) -> None:
+    brake = read_mechanism(written[1]).joint("swing").drive
+    assert brake is not None
+    stage = Usd.Stage.Open(str(written[1]))
+    machine = stage.GetDefaultPrim()
+    held = {}
+    for brakes in ("released", "set"):
+        machine.GetVariantSet("Brakes").SetVariantSelection(brakes)
+        drive = next(UsdPhysics.DriveAPI(p, "angular") for p in stage.Traverse() if p.GetName() == "swing")
+        held[brakes] = drive.GetStiffnessAttr().Get(), drive.GetMaxForceAttr().Get()
+    assert held["released"] == pytest.approx((0.0, 1e6))
+    assert held["set"] == pytest.approx((math.radians(brake.brake / 0.002), brake.brake), rel=1e-5)
 
 
 @pytest.mark.parametrize("engine", ["newton", "physx"])
