@@ -81,8 +81,8 @@ def set_gains(
     - Damping d = 0.6 of what a step of 1 ms bears in any pose, the root and the other drives free to give way.
     - Stiffness k = 55 d, less where that would leave a damping ratio under 0.2 with the mass that it moves, more where
       the weight on it in the drawn pose would move it by 2 % of its travel.
-    - Where a weight would drive it 3.5 % faster than rated, or its full force would slow it by an eighth, an armature makes
-      room for more damping.
+    - Where a weight would drive it 3.5 % faster than rated, or its full force would slow it by more than an eighth, an
+      armature makes room for more damping.
     - A velocity drive keeps the damping that its slip asks for, up to what the step bears with such an armature.
       `ringed`: the machine lies in rings of shoes, whose weight its sprockets turn besides: theirs stays.
 
