@@ -232,12 +232,14 @@ class _Trip:
                 locks.append(coordinates(engine))
         outer = int(np.argmax(circles))
         held = dict(zip(measured, np.mean(locks, axis=0).tolist(), strict=True))
-        geometry = self._slid(held, self._circles(held))
+        meeting = self._circles(held)
+        geometry = self._slid(held, meeting)
         self._rest(engine, 1.0)
         return {
             "lock": self._lock(held),
             "turning_radius": circle_radius(np.array(path)[:, outer, :2]),
             "geometry_radius": float(geometry[outer]),
+            "axes_radius": float(meeting[outer]),
         }
 
     def _lock(self, coordinates: Mapping[str, float]) -> float:
