@@ -68,6 +68,28 @@ def test_a_figure_off_the_sheet_is_a_finding(mechanism: Mechanism) -> None:
     assert [i["published"] for i in entry["inputs"]] == [False, False]
 
 
+def test_what_weights_add_is_not_held_against_a_sheet_that_leaves_them_out(mechanism: Mechanism) -> None:
+    """A digging force of 81 kN of which the arm's own weight gives 7, beside 73 kN calculated without it."""
+    heavy = dataclasses.replace(figure(mechanism, 1130.0), weights=100.0)
+    assert heavy.error_percent == pytest.approx(3.0) and heavy.passed is True
+    assert heavy.statics_difference_percent == pytest.approx(0.0)
+    assert figures_document((heavy,))[0]["weights"] == 100.0
+    assert "weights" not in figures_document((figure(mechanism, 1130.0),))[0]
+    off = dataclasses.replace(heavy, engine_value=1230.0, statics_value=1230.0)
+    (finding,) = figure_findings((off,))
+    assert finding.code == "SIM006" and "+13.0 %" in finding.message
+
+
+@pytest.mark.slow
+def test_a_forces_weights_are_told_where_the_sheet_leaves_them_out(mechanism: Mechanism, usd_file: Path) -> None:
+    with_them = mechanism.tests[3]
+    plain = run_tests(usd_file, engine="mujoco", tests=(with_them,))[0]
+    less = run_tests(usd_file, engine="mujoco", tests=(dataclasses.replace(with_them, unweighted=True),))[0]
+    assert plain.weights == 0.0 and less.weights != 0.0
+    assert less.engine_value == pytest.approx(plain.engine_value)
+    assert f"{less.weights / 1e3:.1f} kN" in less.reason
+
+
 def test_examples_and_what_made_the_model_prove_nothing(mechanism: Mechanism) -> None:
     example, made = figure(mechanism, 2000.0, example=True), figure(mechanism, 2000.0, calibrated=True)
     assert (example.role, made.role) == ("example", "calibrated")

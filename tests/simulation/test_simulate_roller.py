@@ -11,6 +11,7 @@ import pytest
 from kit.builds import MadeOnce
 from kit.machines.drawn_examples import built_example
 from yellowiron.simulation import drive, simulate
+from yellowiron.simulation.driving.result import driving_findings
 from yellowiron.simulation.driving.wheel import driven_wheels
 from yellowiron.simulation.registry import import_engine
 from yellowiron.usd import read_mechanism
@@ -45,6 +46,10 @@ def test_it_drives_on_its_drums_and_bends(file: Path) -> None:
     assert result.lock is not None and result.lock == pytest.approx(math.radians(40.0), rel=0.01)
     # Middles of the front drum (tandem: 4671 mm from the middle of the turn) or of the outer tyre (5616 - 285 mm).
     printed = 4.671 if len(wheels) == 2 else 5.331
-    assert result.geometry_radius == pytest.approx(printed, rel=0.01)
-    assert result.turning_radius is not None
-    assert 1.0 <= result.turning_radius / result.geometry_radius < 1.12
+    assert result.axes_radius is not None and result.axes_radius == pytest.approx(printed, rel=0.01)
+    assert result.turning_radius is not None and result.geometry_radius is not None
+    assert 1.0 <= result.turning_radius / result.axes_radius < 1.12
+    # What friction along the whole drum leaves, which an engine is held against.
+    assert 1.0 < result.geometry_radius / result.axes_radius < 1.12
+    told = [f.where for f in driving_findings(result)]
+    assert told == ([] if len(wheels) == 2 else ["turning radius"])

@@ -7,6 +7,8 @@ from dataclasses import dataclass, field, replace
 from typing import Any, Literal
 
 TestKind = Literal["tipping", "force", "time", "lift"]
+SPARSE = "sparse"
+"""In a field's metadata: a machine's file leaves it out while it is its default."""
 
 
 @dataclass(frozen=True)
@@ -44,7 +46,8 @@ class MachineTest:
 
     `base` floating: on the ground; `expected`: whether a `lift` arrives. `inputs`: wanted names that the figure hangs
     on; `specification`: the one that it is compared with, "" for none. `when`: choices under which it is made, until
-    they are decided (`template.UNDECIDED`).
+    they are decided (`template.UNDECIDED`). `unweighted`: what is published of a force leaves out the weights
+    that the actuator carries.
     """
 
     name: str
@@ -61,6 +64,7 @@ class MachineTest:
     flow: str = ""
     base: Literal["fixed", "floating"] = "floating"
     expected: bool = True
+    unweighted: bool = field(default=False, metadata={SPARSE: True})
     inputs: tuple[str, ...] = field(default=())
     definition: str = ""
     when: Mapping[str, tuple[str, ...]] = field(default_factory=dict, metadata={"undecided": True})

@@ -52,6 +52,7 @@ def read_tests(document: Document) -> tuple[PayloadTemplate | None, tuple[Machin
                 offset=quantity(entry.get("offset", 0.0), "length", where=place),
                 payload=float(entry.get("payload", 0.0)),
                 expected=yes(entry.get("expected", True)),
+                unweighted=not yes(entry.get("weights", True)),
                 best=tuple(entry.get("best", ())),
                 inputs=tuple(entry.get("inputs", ())),
                 definition=entry.get("definition", ""),

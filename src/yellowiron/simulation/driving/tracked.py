@@ -12,6 +12,7 @@ from yellowiron.kinematics import ClosedChain
 from yellowiron.model.geometry import Floats
 from yellowiron.model.mechanism import GRAVITY, Mechanism
 from yellowiron.simulation.commands import motions
+from yellowiron.simulation.driving.sliding import center_of_mass, least_sliding, standing
 from yellowiron.simulation.driving.wheel import GroundWheel
 from yellowiron.simulation.engine import Engine, poses, tell
 from yellowiron.simulation.ground import GROUND_FRICTION, UPRIGHT
@@ -19,30 +20,59 @@ from yellowiron.simulation.loads import SPARE, paces
 
 DISTANCE, SPIN, SWING = 2.0, math.radians(45.0), math.radians(90.0)
 """What it does, at the speeds of its motors: metres forward and back, radians on the spot and of its slewing body."""
+_UP = np.array([0.0, 0.0, 1.0])
+_EASY = 0.1
+"""Share of the speed gained otherwise, of a machine on tyres."""
 _RAMP = 1.0
 _REST = 1.0
 
 
 def spin(
-    engine: Engine, mechanism: Mechanism, both: Sequence[Sequence[GroundWheel]], top: float, timestep: float
+    engine: Engine,
+    chain: ClosedChain,
+    mechanism: Mechanism,
+    both: Sequence[Sequence[GroundWheel]],
+    top: float,
+    timestep: float,
 ) -> dict[str, float]:
-    """The two sides against each other at up to `top` (m/s): how far the root turned to the left, and how far it would
-    if its wheels slipped no more than they must, radians.
+    """The two sides against each other at up to `top` (m/s): how far the root turned to the left, and how far it should
+    have, radians.
 
-    It gains speed as fast as `SPARE` of what motors and ground give can turn the machine as drawn. Two tyres behind
-    each other cannot roll about the middle between them: by Coulomb friction, alike under all four, the moments of what
-    they push along and across balance at 1 / (1 + (wheelbase / tread)²) of the turn that they are told.
+    It gains speed as fast as `SPARE` of what motors and ground give can turn the machine as drawn. Tyres behind each
+    other cannot all roll: what turns the machine is what their sliding across leaves, so that it gains speed ten times
+    as slowly, and by dry friction under the weight that each bears it should turn by what `least_sliding` has for as
+    far as they did roll.
     """
     left, right = both
+    every, tyres = (*left, *right), on_tyres(both)
     half = 0.5 * float(np.mean([w.middle[1] for w in left]) - np.mean([w.middle[1] for w in right]))
-    limit = SPARE * _push(mechanism, [*left, *right]) * half / _inertia(mechanism)
+    limit = (_EASY if tyres else 1.0) * SPARE * _push(mechanism, every) * half / _inertia(mechanism)
     root = [body.name for body in mechanism.bodies].index(mechanism.root)
     rims = {w.joint.name: sign * w.sign / w.radius for side, sign in ((left, -1.0), (right, 1.0)) for w in side}
-    turned = 0.0
+    turned, rolled = 0.0, np.zeros(len(every))
+    angles = _angles(engine, every, root)
     for speed in (*course(SPIN, top / half, limit, timestep).tolist(), *_rest(timestep)):
         turned += _turned(engine, {joint: rim * speed * half for joint, rim in rims.items()}, root)
-    base = float(np.mean([np.ptp([w.middle[0] for w in side]) for side in both])) if on_tyres(both) else 0.0
-    return {"spin": turned, "spin_geometry": SPIN / (1.0 + (0.5 * base / half) ** 2)}
+        before, angles = angles, _angles(engine, every, root)
+        rolled += (angles - before + math.pi) % (2.0 * math.pi) - math.pi
+    if not tyres:
+        return {"spin": turned, "spin_geometry": SPIN}
+    middles, axes = np.array([w.middle[:2] for w in every]), np.array([w.axis[:2] for w in every])
+    axes /= np.linalg.norm(axes, axis=1, keepdims=True)
+    under = standing(every, middles, axes, center_of_mass(chain, mechanism, chain.drawn)[:2])
+    ways = rolled * [w.sign * w.radius for w in every]
+    return {"spin": turned, "spin_geometry": float(least_sliding(under, ways)[2])}
+
+
+def _angles(engine: Engine, found: Sequence[GroundWheel], root: int) -> Floats:
+    """How far each wheel is turned about its axle on the root, radians within a turn."""
+    rotations = poses(engine)[0]
+    angles = []
+    for wheel in found:
+        spoke = np.cross(wheel.axis, _UP)
+        turned = rotations[root].T @ rotations[wheel.body] @ spoke
+        angles.append(math.atan2(float(np.cross(spoke, turned) @ wheel.axis), float(spoke @ turned)))
+    return np.array(angles)
 
 
 def on_tyres(both: Sequence[Sequence[GroundWheel]]) -> bool:

@@ -19,6 +19,7 @@ from yellowiron.model.mechanism import Body, Joint, Mechanism
 from yellowiron.simulation.commands import SHARE, Motion, motions, travel
 from yellowiron.simulation.driving import tracked
 from yellowiron.simulation.driving.result import BLOCK_HEIGHT, DISTANCE, DrivingResult
+from yellowiron.simulation.driving.sliding import center_of_mass, least_sliding, standing
 from yellowiron.simulation.driving.turning import turning_centre
 from yellowiron.simulation.driving.wheel import GroundWheel, driven_wheels, free_wheels, sides, top_speed
 from yellowiron.simulation.engine import Engine, Setup, coordinates, poses, tell
@@ -152,7 +153,7 @@ class _Trip:
             back = poses(engine)[1][self._root]
             turn = self._turn(engine)
             if self._sides:
-                turn |= tracked.spin(engine, self.mechanism, self._sides, speed, self.timestep)
+                turn |= tracked.spin(engine, self.chain, self.mechanism, self._sides, speed, self.timestep)
                 turn |= tracked.swing(engine, self.chain, self.mechanism, self.wheels, self.timestep)
         finally:
             engine.close()
@@ -186,13 +187,27 @@ class _Trip:
     def _apply(self, state: Any, wheel: GroundWheel) -> Floats:
         return self.chain.displacement(state, wheel.joint.body0)
 
-    def _circles(self, coordinates: Mapping[str, float]) -> Floats:
-        """Radius of each wheel's middle about the middle of the turn, seen from above."""
+    def _posed(self, coordinates: Mapping[str, float]) -> tuple[Any, Floats, Floats]:
+        """The state at coordinates, and the wheels' middles and unit axes there (n, 2) seen from above."""
         given = {n: v for n, v in coordinates.items() if not any(n == w.joint.name for w in self.wheels)}
         state, _ = self.chain.reach(given)
         places = np.array([(self._apply(state, w) @ np.append(w.middle, 1.0))[:2] for w in self.wheels])
-        axes = np.array([a[:2] / np.linalg.norm(a[:2]) for a in self._axes(state)])
+        return state, places, np.array([a[:2] / np.linalg.norm(a[:2]) for a in self._axes(state)])
+
+    def _circles(self, coordinates: Mapping[str, float]) -> Floats:
+        """Radius of each wheel's middle about the middle of the turn, seen from above."""
+        _, places, axes = self._posed(coordinates)
         return np.asarray(np.linalg.norm(places - turning_centre(places, axes), axis=1))
+
+    def _slid(self, coordinates: Mapping[str, float], circles: Floats) -> Floats:
+        """These circles, but of a machine with a drum those that it comes to by dry friction: a drum turns at one speed
+        over its width, so that all of it but one place slides, and holds the machine back in its turn."""
+        if all(w.half_width <= w.radius for w in self.wheels):
+            return circles
+        state, places, axes = self._posed(coordinates)
+        under = standing(self.wheels, places, axes, center_of_mass(self.chain, self.mechanism, state)[:2])
+        x, y, turn = least_sliding(under, circles)
+        return np.asarray(np.linalg.norm(places - np.array([-y, x]) / turn, axis=1))
 
     def _turn(self, engine: Engine) -> dict[str, float | None]:
         motion = self._steer
@@ -216,12 +231,15 @@ class _Trip:
                 path.append(self._middles(poses(engine)))
                 locks.append(coordinates(engine))
         outer = int(np.argmax(circles))
-        geometry = self._circles(dict(zip(measured, np.mean(locks, axis=0).tolist(), strict=True)))
+        held = dict(zip(measured, np.mean(locks, axis=0).tolist(), strict=True))
+        meeting = self._circles(held)
+        geometry = self._slid(held, meeting)
         self._rest(engine, 1.0)
         return {
-            "lock": self._lock(dict(zip(measured, np.mean(locks, axis=0).tolist(), strict=True))),
+            "lock": self._lock(held),
             "turning_radius": circle_radius(np.array(path)[:, outer, :2]),
             "geometry_radius": float(geometry[outer]),
+            "axes_radius": float(meeting[outer]),
         }
 
     def _lock(self, coordinates: Mapping[str, float]) -> float:

@@ -42,7 +42,8 @@ class Input:
 @dataclass(frozen=True)
 class Figure:
     """One test's outcome. `engine_value` and `statics_value` in kg, N, s, or (lift) as the share of the way; None where
-    it could not be made, `reason` says why; `role` is that of `spec`, as a measurement's. A `lift` has `arrived`."""
+    it could not be made, `reason` says why; `role` is that of `spec`, as a measurement's. A `lift` has `arrived`.
+    `weights`: newtons of a force, by statics, that come of the machine's own weight and that the sheet leaves out."""
 
     test: MachineTest
     engine_value: float | None
@@ -52,11 +53,17 @@ class Figure:
     spec: float | None = None
     role: Literal["checked", "example", "calibrated"] = "checked"
     inputs: tuple[Input, ...] = ()
+    weights: float = 0.0
+
+    @property
+    def comparable(self) -> float | None:
+        """The engine's value as the sheet counts it."""
+        return None if self.engine_value is None else self.engine_value - self.weights
 
     @property
     def error_percent(self) -> float | None:
-        """Engine against sheet."""
-        return _percent(self.engine_value, self.spec)
+        """Engine against sheet, as the sheet counts."""
+        return _percent(self.comparable, self.spec)
 
     @property
     def statics_difference_percent(self) -> float | None:
@@ -98,6 +105,7 @@ def figures_document(figures: Sequence[Figure]) -> list[dict[str, Any]]:
             "rig": RIG[f.test.kind],
             "engine_value": f.engine_value,
             "statics_value": f.statics_value,
+            **({"weights": f.weights} if f.weights else {}),
             "statics_difference_percent": f.statics_difference_percent,
             "spec": f.spec,
             "error_percent": f.error_percent,
@@ -128,7 +136,7 @@ def figure_findings(figures: Sequence[Figure]) -> Iterator[Finding]:
             unpublished = [i.name for i in f.inputs if not i.published]
             hint = f"Not published: {', '.join(unpublished)}." if unpublished else "Check masses and pins."
             words = (
-                f"{display(f.engine_value, unit)} against {display(f.spec, unit)}, {f.error_percent:+.1f} %, "
+                f"{display(f.comparable, unit)} against {display(f.spec, unit)}, {f.error_percent:+.1f} %, "
                 f"more than {BARS[f.test.kind]:g} %"
             )
             yield Finding("SIM006", "warning", name, words, hint)

@@ -210,12 +210,18 @@ def _force(trial: _Trial) -> Figure:
         value, why = _grow(rig, state, site, offset, -along, statics, slide=(trial.driven, trial.sense))
     finally:
         rig.close()
-    return Figure(trial.test, value, statics, reason="; ".join(text for text in (why, limit) if text))
+    added, words = 0.0, ""
+    if trial.test.unweighted and not limit:
+        added = statics - _pushed(trial, bench, state, trial.test.actuator, carried=False)[0]
+        words = f"{added / 1e3:.1f} kN of it come of weights, which the sheet leaves out"
+    return Figure(
+        trial.test, value, statics, weights=added, reason="; ".join(text for text in (why, limit, words) if text)
+    )
 
 
-def _pushed(trial: _Trial, bench: Bench, state: State, name: str) -> tuple[float, Floats]:
-    """Force (N) of an actuator at the test's site, less the weight it carries, and its unit direction (3,); 0 where the
-    site does not move that way."""
+def _pushed(trial: _Trial, bench: Bench, state: State, name: str, *, carried: bool = True) -> tuple[float, Floats]:
+    """Force (N) of an actuator at the test's site, less the weight it carries (`carried` false: of that nothing), and
+    its unit direction (3,); 0 where the site does not move that way."""
     entry = bench.actuator(name).joints[0]
     positive = name != trial.test.actuator or trial.test.to == "max"
     sense = float(entry.sign) * (1.0 if positive else -1.0)
@@ -226,7 +232,7 @@ def _pushed(trial: _Trial, bench: Bench, state: State, name: str) -> tuple[float
     if rate <= 1e-6:
         return 0.0, along
     force = actuator_force(trial.mechanism, name, positive=positive)
-    return (force - sense * weight(bench.chain, state, entry.joint)) / rate, along
+    return (force - (sense * weight(bench.chain, state, entry.joint) if carried else 0.0)) / rate, along
 
 
 def _strongest(trial: _Trial, bench: Bench, state: State, name: str) -> State:

@@ -16,6 +16,7 @@ import numpy as np
 from pxr import Gf, Sdf, Vt
 
 from yellowiron.model.errors import YellowironError
+from yellowiron.model.machine_tests import SPARSE
 from yellowiron.model.mechanism import Body, BodyPart, Joint, Mechanism, Site
 from yellowiron.model.sensor import Sensor
 from yellowiron.model.template import UNDECIDED
@@ -160,7 +161,8 @@ def to_json(value: Any) -> str:
 def _plain(value: Any) -> Any:
     if is_dataclass(value) and not isinstance(value, type):
         # A machine's variants are decided: its file has no use for what they were decided by.
-        return {f.name: _plain(getattr(value, f.name)) for f in fields(value) if not f.metadata.get(UNDECIDED)}
+        given = ((f, getattr(value, f.name)) for f in fields(value) if not f.metadata.get(UNDECIDED))
+        return {f.name: _plain(each) for f, each in given if not (f.metadata.get(SPARSE) and each == f.default)}
     if isinstance(value, Mapping):
         return {str(k): _plain(v) for k, v in value.items()}
     if isinstance(value, list | tuple):
