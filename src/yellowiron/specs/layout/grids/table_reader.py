@@ -113,8 +113,8 @@ def read_grid(
 def _sentences(
     page: Page, filled: Sequence[Cell], values: Sequence[Cell], row: int, section: str
 ) -> Iterator[Statement]:
-    """The statements of running text in the cells of a row that hold no value, under the label that begins it; of a list
-    of "label: value", one below the other, each line is a text."""
+    """The statements of running text in the cells of a row that hold no value, under the label that begins it; each
+    line of a list of "label: value"."""
     label = filled[0].text if len(filled) > 1 and filled[0].columns[0] == 0 else section
     for cell in filled:
         items = [(line,) for line in cell.lines if len(line.pieces) == 1 and split_inline(line.text)[0]]

@@ -29,6 +29,9 @@ from yellowiron.specs.layout.statement import (
 from yellowiron.specs.layout.tolerances import INDENT, LONGEST_LABEL
 from yellowiron.specs.pages.words import Page
 
+_LEVEL = 2.0
+"""Points within which the left edges of labels lie."""
+
 
 def read_values(page: Page, row: Sequence[TextLine], state: ReaderState, number: int, found: list[Statement]) -> None:
     """Adds the statements of a row with values, `number` theirs, to those found above it."""
@@ -51,6 +54,8 @@ def read_values(page: Page, row: Sequence[TextLine], state: ReaderState, number:
         context.insert(0, state.circuit)
     if state.corner is not None and state.heads:
         context.insert(0, state.corner)
+    if (group := _group_of(cells, state)) is not None:
+        context.insert(0, group)
     marked = bool(EXAMPLE.search(state.section)) or any(
         EXAMPLE.search(p.text) for p in [*context, *(q for c in cells for q in [*c.notes, *c.label, *c.values])]
     )
@@ -64,6 +69,19 @@ def read_values(page: Page, row: Sequence[TextLine], state: ReaderState, number:
         state.pending = pending
         if not pending and not state.heads:
             state.orphans = list(range(len(found) - len(cells), len(found)))
+
+
+def _group_of(cells: Sequence[ValueCell], state: ReaderState) -> TextPiece | None:
+    """The first of two labels of a row above, which holds for the rows that begin where its second one did: "Lift
+    cylinder | Bore" over " | Stroke"."""
+    label = cells[0].label
+    if len(label) > 1:
+        state.group = (label[0], label[1].x0)
+    elif state.group is not None and label and abs(label[0].x0 - state.group[1]) < _LEVEL:
+        return state.group[0]
+    else:
+        state.group = None
+    return None
 
 
 def _broken(above: TextPiece, label: TextPiece) -> bool:
