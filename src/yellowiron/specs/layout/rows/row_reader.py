@@ -8,7 +8,7 @@ from dataclasses import replace
 
 from yellowiron.specs.language.numbers import read
 from yellowiron.specs.layout.rows.cells import ValueCell, statement_of
-from yellowiron.specs.layout.rows.headings import Heading, bars_of, body_size
+from yellowiron.specs.layout.rows.headings import Heading, bar_under, bars_of, body_size
 from yellowiron.specs.layout.rows.lines import TextBlock, TextLine, bands
 from yellowiron.specs.layout.rows.margin import without_keys
 from yellowiron.specs.layout.rows.prose import paragraphs_of, read_paragraph
@@ -101,6 +101,10 @@ def _read_row(
 ) -> None:
     pieces = [p for line in row for p in line.pieces]
     kinds = [kind_of(p) for p in pieces]
+    if _heads_a_section(column, pieces, kinds):
+        heading = column.heading(max(line.bottom for line in row), pieces[0].text)
+        state.open_section(heading, tuple(pieces[1:]))
+        return
     if "value" in kinds and _are_heads(pieces, kinds, state):
         state.heads.append(tuple(pieces))
         return
@@ -220,6 +224,15 @@ def _label_orphans(line: TextLine, state: ReaderState, found: list[Statement]) -
             example=statement.example or bool(EXAMPLE.search(piece.text)),
         )
     return True
+
+
+def _heads_a_section(column: TextColumn, pieces: Sequence[TextPiece], kinds: Sequence[str]) -> bool:
+    """Whether a row on a heading's bar names the section and its columns by numbers: "Dimensions   2.5-m arm   3-m
+    arm"."""
+    if len(pieces) < 3 or kinds[0] != "text" or not set(kinds[1:]) <= {"value"} or not all(p.bold for p in pieces):
+        return False
+    named = all(words_beside_numbers(p.bare, read(p.bare)) for p in pieces[1:])
+    return named and bar_under(column.page, pieces[0], column.size) is not None
 
 
 def _are_heads(pieces: Sequence[TextPiece], kinds: Sequence[str], state: ReaderState) -> bool:

@@ -5,7 +5,6 @@ from __future__ import annotations
 from collections.abc import Sequence
 from dataclasses import replace
 
-from yellowiron.specs.language.vocabulary import has_cjk
 from yellowiron.specs.layout.rows.cells import (
     ValueCell,
     add_continuation,
@@ -15,7 +14,7 @@ from yellowiron.specs.layout.rows.cells import (
     statement_of,
 )
 from yellowiron.specs.layout.rows.lines import TextLine
-from yellowiron.specs.layout.rows.reader_state import ReaderState, stacked
+from yellowiron.specs.layout.rows.reader_state import ReaderState
 from yellowiron.specs.layout.statement import (
     COUNTED,
     EXAMPLE,
@@ -40,9 +39,6 @@ def read_values(page: Page, row: Sequence[TextLine], state: ReaderState, number:
     if not cells:
         return
     pending, state.pending = state.pending, []
-    if pending and cells[0].label and _broken(pending[-1], cells[0].label[0]):
-        cells = [replace(c, label=[pending[-1], *c.label]) if c.label is cells[0].label else c for c in cells]
-        pending = pending[:-1]
     has_label = any(c.label for c in cells)
     if not has_label and not pending and found and continues(found, cells):
         add_continuation(found, cells)
@@ -82,11 +78,6 @@ def _group_of(cells: Sequence[ValueCell], state: ReaderState) -> TextPiece | Non
     else:
         state.group = None
     return None
-
-
-def _broken(above: TextPiece, label: TextPiece) -> bool:
-    """Whether a label of a script without spaces is broken over two lines, perhaps within a word."""
-    return stacked(above, label) and abs(above.x0 - label.x0) < 1 and has_cjk(above.text)
 
 
 def _keep_sub_heading(cells: Sequence[ValueCell], pending: Sequence[TextPiece], state: ReaderState) -> None:
