@@ -57,6 +57,7 @@ def read_grid(
     grid = _with_names_carried(_without_keys(grid))
     heads = _head_rows(page, grid)
     naming = frozenset(heads)
+    titles = _titles(grid)
     over_rows: tuple[str, ...] = ()
     circuit: tuple[str, ...] = ()
     carried: list[Cell] = []
@@ -104,6 +105,8 @@ def read_grid(
         if heads and index not in heads and not any(f.label for f in own):
             own = [replace(f, variant=(values[0].text,)) for f in own]
         own = [replace(f, context=(*circuit, *f.context, *over_rows)) for f in own]
+        if index in titles:
+            own = [_under_title(f, titles[index]) for f in own]
         if above and not heads:
             own = [_headed(f, above) for f in own]
         found.extend(own)
@@ -169,6 +172,11 @@ def _values_of(filled: Sequence[Cell]) -> list[Cell]:
     if not values and len(filled) > 1 and all(len(split_inline(c.text)[0].split()) in (1, 2) for c in filled[1:]):
         return list(filled[1:])
     return values
+
+
+def _under_title(statement: Statement, title: str) -> Statement:
+    label = statement.label.removeprefix(title).strip(" :")
+    return replace(statement, label=label, context=(*statement.context, title))
 
 
 def columns_of(grid: TableGrid) -> list[tuple[float, float]]:
@@ -254,6 +262,20 @@ def _with_names_carried(grid: TableGrid) -> TableGrid:
                 cells[name.rows[0], column] = name
                 del cells[row, column]
     return replace(grid, cells=tuple(cells.values()))
+
+
+def _titles(grid: TableGrid) -> dict[int, str]:
+    """Row → the line that ends in a colon over the label of the first row beside one drawing's key, which holds for all
+    of that key's rows: "1 | Machine height: / top of cab", "  | with boom installed"."""
+    found: dict[int, str] = {}
+    for key in grid.cells:
+        if key.rows[1] - key.rows[0] < 2 or not _is_key(key.text):
+            continue
+        label = grid.at(key.rows[0], key.columns[1])
+        first = " ".join(p.bare for p in label.lines[0].pieces) if label is not None and len(label.lines) > 1 else ""
+        if first.endswith(":"):
+            found.update(dict.fromkeys(range(*key.rows), first.rstrip(" :")))
+    return found
 
 
 def _head_rows(page: Page, grid: TableGrid) -> list[int]:
