@@ -43,8 +43,7 @@ def lengths(path: Path) -> dict[str, tuple[str, float | None]]:
 
 def test_units_one_below_the_other_stand_beside_their_values(tmp_path: Path) -> None:
     rows = [("Operating weight", "kg", "18,180", "lb", "40,080"), ("Counterweight", "kg", "1,350", "lb", "2,976"),
-            ("Net power", "kW", "133", "hp", "178"),
-            ("Implement system pressure", "kPa", "32,200", "psi", "4,670")]  # fmt: skip
+            ("Net power", "kW", "133", "hp", "178"), ("Implement system", "kPa", "32,200", "psi", "4,670")]  # fmt: skip
     c = canvas(tmp_path / "a.pdf")
     for i, (label, unit, value, other, second) in enumerate(rows):
         y = _TOP - 26 * i
@@ -52,6 +51,8 @@ def test_units_one_below_the_other_stand_beside_their_values(tmp_path: Path) -> 
         put(c, 40, y, label)
         put(c, 200, y, unit)
         put(c, 300, y, value, right=True)
+        if i == 3:
+            put(c, 40, y - 11, "pressure")  # a label broken in two, the imperial value beside its second line
         put(c, 200, y - 11, other)
         put(c, 300, y - 11, second, right=True)
     c.line(40, _TOP - 26 * 4 + 10, 300, _TOP - 26 * 4 + 10)

@@ -158,6 +158,26 @@ def test_a_section_and_its_columns_on_one_bar_and_a_value_for_all_of_them(tmp_pa
     assert found(tmp_path / "a.pdf", "2.98 m stick") == ok(_SECOND)
 
 
+def test_a_sub_heading_over_its_first_row_between_two_rules(tmp_path: Path) -> None:
+    c = canvas(tmp_path / "a.pdf")
+    put(c, 40, 780, "Hydraulic cylinders", bold=True, size=10)
+    y, truth = 760.0, {}
+    for group in ("Lift cylinder", "Tilt cylinder"):
+        c.line(40, y + 10, 300, y + 10)
+        put(c, 40, y, group, bold=True)
+        for part, size in (("Bore", 150), ("Rod diameter", 85), ("Stroke", 764)):
+            y -= 13
+            size += 10 * (group == "Tilt cylinder")
+            put(c, 48, y, part)
+            put(c, 180, y, "mm")
+            put(c, 300, y, str(size), right=True, bold=True)
+            c.line(40, y - 3.5, 300, y - 3.5)
+            truth[f"{group} {part}".title()] = size / 1000
+        y -= 14
+    c.save()
+    assert found(tmp_path / "a.pdf", names=tuple(truth)) == ok(truth)
+
+
 def test_a_colon_in_a_column_of_its_own_is_no_label(tmp_path: Path) -> None:
     c = canvas(tmp_path / "a.pdf")
     put(c, 40, 780, "Dimensions", bold=True, size=10)

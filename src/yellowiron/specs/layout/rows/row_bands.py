@@ -5,9 +5,11 @@ from __future__ import annotations
 from collections.abc import Iterator, Sequence
 
 from yellowiron.specs.language.numbers import read
+from yellowiron.specs.language.quantities import same
+from yellowiron.specs.layout.rows.cells import cells_of
 from yellowiron.specs.layout.rows.lines import TextLine
-from yellowiron.specs.layout.statement import TextPiece, kind_of, words_beside_numbers
-from yellowiron.specs.layout.tolerances import LARGER
+from yellowiron.specs.layout.statement import TextPiece, kind_of, unit_in_label, words_beside_numbers
+from yellowiron.specs.layout.tolerances import INDENT, LARGER
 
 
 def split_if_separate(row: Sequence[TextLine]) -> Iterator[Sequence[TextLine]]:
@@ -15,7 +17,7 @@ def split_if_separate(row: Sequence[TextLine]) -> Iterator[Sequence[TextLine]]:
     ordered = sorted(row, key=lambda line: line.top)
     first, rest = ordered[0], ordered[1:]
     last, before = ordered[-1], ordered[:-1]
-    if rest and _are_units_over(first, rest):
+    if rest and (_is_heading_over(first, rest) or _are_units_over(first, rest)):
         yield (first,)
         yield from split_if_separate(rest)
     elif len(rest) == 1 and _are_heads_of(first, rest[0]):
@@ -24,11 +26,23 @@ def split_if_separate(row: Sequence[TextLine]) -> Iterator[Sequence[TextLine]]:
     elif before and _is_heading_under(last, before):
         yield from split_if_separate(before)
         yield (last,)
-    elif sum(map(_is_labelled, row)) >= 2:
+    elif sum(map(_is_labelled, row)) >= 2 and not _in_two_systems(ordered):
         for line in row:
             yield (line,)
     else:
         yield row
+
+
+def _is_heading_over(first: TextLine, rest: Sequence[TextLine]) -> bool:
+    """Whether the first line is words alone that stand out over the lines under it: larger than all of them, or a bold
+    sub-heading from which the first of them is indented."""
+    if len(_words(first)) != 1 or kind_of(first.pieces[0]) != "text":
+        return False
+    if _is_larger(first, rest) and first.bottom <= min(line.top for line in rest) + 1:
+        return True
+    under = min(rest, key=lambda line: line.top)
+    stands_out = first.pieces[0].bold and not under.pieces[0].bold and under.x0 > first.x0 + INDENT
+    return stands_out and first.bottom <= under.top + 1 and kind_of(under.pieces[0]) == "text"
 
 
 def _is_heading_under(last: TextLine, before: Sequence[TextLine]) -> bool:
@@ -66,3 +80,20 @@ def _are_heads_of(line: TextLine, row: TextLine) -> bool:
     named = all(words_beside_numbers(h.bare, read(h.bare)) for h in line.pieces)
     bare = not any(words_beside_numbers(v.bare, read(v.bare)) for v in values)
     return over and named and bare and line.bottom <= row.top + 2 and line.x0 > row.x0 + 2 * line.pieces[0].size
+
+
+def _in_two_systems(lines: Sequence[TextLine]) -> bool:
+    """Whether two lines with labels are one row, its label broken in two: their values are the same, metric and
+    imperial."""
+    both = [cells_of((line,)) for line in lines]
+    if len(lines) != 2 or any(len(cells) != 1 or not cells[0].label for cells in both):
+        return False
+    if abs(lines[0].pieces[0].x0 - lines[1].pieces[0].x0) > 1.5 * lines[0].pieces[0].size:
+        return False
+    values = [read(" ".join(p.text for p in c.values), unit=c.unit or unit_in_label(c.label[-1].bare)[1])
+              for cells in both for c in cells]  # fmt: skip
+    if any(len(v) != 1 or len(v[0].numbers) != 1 for v in values):
+        return False
+    first, second = (v[0].numbers[0] for v in values)
+    systems = {q.printed.system for q in (first, second) if q.printed}
+    return systems == {"metric", "imperial"} and same(first, second)
