@@ -1,4 +1,4 @@
-"""Lists in cells, legends, headings with units, heads over several sections."""
+"""Rows folded in two, cells with rows of their own, legends, headings with units, heads over several sections."""
 
 from __future__ import annotations
 
@@ -19,15 +19,36 @@ def facts(path: Path) -> set[tuple[str, str, str]]:
     return {(s.section, s.label, s.text) for s in said(path)}
 
 
-def test_a_list_in_a_cell_is_read_under_the_words_beside_it(tmp_path: Path) -> None:
+def test_a_value_under_its_label_is_read_in_its_own_column(tmp_path: Path) -> None:
+    columns = {
+        "MASSES": [("Operating mass", "17,860 kg"), ("Weight of bucket", "1,550 kg"), ("Ballast", "1,260 kg")],
+        "SIZES": [("Machine width", "2,720 mm"), ("Height of cab", "3,430 mm"), ("Reach at 45°", "1,235 mm")],
+        "TIMES": [("Raise", "5.8 s"), ("Dump", "1.7 s"), ("Lower", "3.0 s")],
+    }
     c = canvas(tmp_path / "sheet.pdf")
-    cells = [["Engine", "Bore: 108 mm\nStroke: 130 mm"], ["Cylinders", "Hoist, bore: 130 mm\nHoist, rod: 80 mm"]]
+    for i, (heading, rows) in enumerate(columns.items()):
+        put(c, 36 + 180 * i, 780, heading, size=9, bold=True)
+        for j, (label, value) in enumerate([*rows, ("Fill", "29 L")]):
+            put(c, 36 + 180 * i, 762 - 20 * j - i, label)
+            put(c, 200 + 180 * i, 753 - 20 * j - i, value, right=True)
+    c.save()
+    expected = {(h, label, value) for h, rows in columns.items() for label, value in [*rows, ("Fill", "29 L")]}
+    assert facts(tmp_path / "sheet.pdf") == expected
+
+
+def test_cells_with_rows_of_their_own_are_read_under_the_words_beside_them(tmp_path: Path) -> None:
+    c = canvas(tmp_path / "sheet.pdf")
+    cylinders = "Hoist, bore x stroke:\n2 - 130 x 705 mm\nHoist, rod: 80 mm"
+    cells = [["Engine", "Bore: 108 mm\nStroke: 130 mm\nTorque at 1,400 rpm: 1,080 N·m"], ["Cylinders", cylinders]]
     lattice(c, 36, 780, [90, 300], cells, heads=0)
+    put(c, 340, 768, "Displacement: 7.1 L", size=7)
     c.save()
     assert facts(tmp_path / "sheet.pdf") == {
         ("Engine", "Bore", "108 mm"),
         ("Engine", "Stroke", "130 mm"),
-        ("Cylinders", "Hoist, bore", "130 mm"),
+        ("Engine", "Torque at 1,400 rpm", "1,080 N·m"),
+        ("Engine", "Displacement", "7.1 L"),
+        ("Cylinders", "Hoist, bore x stroke", "2 - 130 x 705 mm"),
         ("Cylinders", "Hoist, rod", "80 mm"),
     }
 

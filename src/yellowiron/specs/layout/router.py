@@ -9,6 +9,7 @@ from dataclasses import replace
 from yellowiron.specs.language.numbers import read
 from yellowiron.specs.layout.captions import captioned
 from yellowiron.specs.layout.grids.lattice import grids_of
+from yellowiron.specs.layout.grids.nested_rows import read_boxes
 from yellowiron.specs.layout.grids.open_sided import heads_above
 from yellowiron.specs.layout.grids.table_grid import TableGrid
 from yellowiron.specs.layout.grids.table_reader import columns_of, read_grid
@@ -64,8 +65,11 @@ def statements_of(page: Page) -> list[Statement]:
         title = _title(free, grid) or _heading_above(headings, grid.box[1], grid.box[0], grid.box[2])
         if unit := _unit_above(free, grid):
             title = f"{title} ({unit})".strip()
+        filled = read_boxes(page, grid, row, title)
+        row += len(filled.statements)
+        found.extend(filled.statements)
         above = heads_above(free, grid.box, columns_of(grid), boxes)
-        found.extend(read_grid(page, grid, row, title, above))
+        found.extend(read_grid(page, filled.grid, row, title, above))
         row += grid.rows + 1
     return _in_noted_unit(labelled(found, keys), lines)
 

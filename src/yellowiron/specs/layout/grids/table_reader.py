@@ -116,14 +116,11 @@ def read_grid(
 def _sentences(
     page: Page, filled: Sequence[Cell], values: Sequence[Cell], row: int, section: str
 ) -> Iterator[Statement]:
-    """The statements of running text in the cells of a row that hold no value, under the label that begins it; each
-    line of a list of "label: value"."""
+    """The statements of running text in the cells of a row that hold no value, under the label that begins it."""
     label = filled[0].text if len(filled) > 1 and filled[0].columns[0] == 0 else section
     for cell in filled:
-        items = [(line,) for line in cell.lines if len(line.pieces) == 1 and split_inline(line.text)[0]]
-        listed = len(items) > 1 and 2 * len(items) > len(cell.lines)
-        if (listed or len(cell.text.split()) > _LONGEST_SECTION) and not any(cell is v for v in values):
-            for paragraph in items if listed else paragraphs_of(cell.lines):
+        if len(cell.text.split()) > _LONGEST_SECTION and not any(cell is v for v in values):
+            for paragraph in paragraphs_of(cell.lines):
                 yield from read_paragraph(page.number, paragraph, row, label)
 
 

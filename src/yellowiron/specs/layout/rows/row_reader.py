@@ -14,6 +14,7 @@ from yellowiron.specs.layout.rows.margin import without_keys
 from yellowiron.specs.layout.rows.prose import paragraphs_of, read_paragraph
 from yellowiron.specs.layout.rows.reader_state import ReaderState, TextColumn
 from yellowiron.specs.layout.rows.row_bands import split_if_separate
+from yellowiron.specs.layout.rows.two_line_rows import unfolded
 from yellowiron.specs.layout.rows.value_rows import in_section, read_values
 from yellowiron.specs.layout.rows.word_rows import read_words
 from yellowiron.specs.layout.statement import (
@@ -39,8 +40,8 @@ def read_block(
     paragraphs = paragraphs_of(block.lines)
     kept, beside = _without_paragraphs(block, paragraphs)
     lines = without_keys(kept)
-    rows = [r for band in bands(lines, page.rules, bars_of(page, block), block.x0, block.x1)
-            for r in split_if_separate(band)]  # fmt: skip
+    rows = unfolded([r for band in bands(lines, page.rules, bars_of(page, block), block.x0, block.x1)
+                     for r in split_if_separate(band)])  # fmt: skip
     for index in range(len(rows)):
         _read_nth_row(column, rows, index, state, first_row, found)
     for paragraph in paragraphs:

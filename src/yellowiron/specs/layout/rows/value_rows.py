@@ -71,7 +71,7 @@ def _group_of(cells: Sequence[ValueCell], state: ReaderState) -> TextPiece | Non
     """The first of two labels of a row above, which holds for the rows that begin where its second one did: "Lift
     cylinder | Bore" over " | Stroke"."""
     label = cells[0].label
-    if len(label) > 1:
+    if len(label) > 1 and label[0].x1 < label[1].x0:  # side by side, not a label in two lines
         state.group = (label[0], label[1].x0)
     elif state.group is not None and label and abs(label[0].x0 - state.group[1]) < _LEVEL:
         return state.group[0]
