@@ -7,9 +7,7 @@ from dataclasses import replace
 
 from yellowiron.specs.layout.rows.cells import (
     ValueCell,
-    add_continuation,
     cells_of,
-    continues,
     heads_over,
     statement_of,
 )
@@ -40,9 +38,6 @@ def read_values(page: Page, row: Sequence[TextLine], state: ReaderState, number:
         return
     pending, state.pending = state.pending, []
     has_label = any(c.label for c in cells)
-    if not has_label and not pending and found and continues(found, cells):
-        add_continuation(found, cells)
-        return
     _end_heads(row, cells, state)
     _keep_sub_heading(cells, pending, state)
     context = [*state.context, *(p for p in pending if p not in state.context)]
