@@ -66,25 +66,26 @@ def _lattice(side: list[tuple[float, float]], bays: int) -> TopoDS_Shape:
 
 
 def _depth(side: list[tuple[float, float]], x: float) -> float:
-    """Half of the boom's depth at x, of an outline whose upper half rises to it and falls from it."""
-    upper = sorted((a, z) for a, z in side if z > 0.0)
-    for (a, za), (b, zb) in itertools.pairwise(upper):
-        if a <= x <= b:
-            return za + (zb - za) * (x - a) / (b - a)
-    return 0.0
+    """How far an outline reaches at x to the nearer side of the boom's middle."""
+    found = []
+    for sign in (1.0, -1.0):
+        edge = sorted((a, sign * z) for a, z in side if sign * z > 0.0)
+        pieces = itertools.pairwise(edge)
+        found += [za + (zb - za) * (x - a) / (b - a) for (a, za), (b, zb) in pieces if a <= x <= b]
+    return min(found, default=0.0)
 
 
 def draw_boom(pose: Pose, hardware: Assembly) -> Assembly:
     """Foot section, top section and head, and the pins in the head."""
     tree, at, body = Assembly("BOOM"), _at(pose), "boom"
     foot = [(250.0, -130.0), (2_600.0, -HALF), (JOINT, -HALF), (JOINT, HALF), (2_600.0, HALF), (250.0, 130.0)]
-    top = [(JOINT, -HALF), (7_400.0, -HALF), (END, -280.0), (END, 280.0), (7_400.0, HALF), (JOINT, HALF)]
+    top = [(JOINT, -HALF), (7_000.0, -HALF), (END, -20.0), (END, 280.0), (7_400.0, HALF), (JOINT, HALF)]
     tree.add(Part("BOOM FOOT SECTION", moved(_lattice(foot, 7), at)), body)
     tree.add(Part("BOOM TOP SECTION", moved(_lattice(top, 6), at)), body)
     lug = plate([(0, 0, 110), (250, -130, 0), (250, 130, 0)], "xz", HALF - 60, HALF)
     _both(tree, "BOOM FOOT LUG", bored(lug, Y, ((0, 0, 0), PIN_BOOM / 2 + CLEARANCE)), at, body)
     (low, high), x, (dx, dz) = HEAD_Y, v.BOOM.value, (float(c) for c in D)
-    side = [(END, -280, 0), (x, 0, 130), (dx, dz, 90), (END, 280, 0)]
+    side = [(END, -20, 0), (x, 0, 130), (dx, dz, 90), (END, 280, 0)]
     head = bored(plate(side, "xz", low, high), Y, ((x, 0, 0), PIN_HEAD / 2), ((dx, 0, dz), PIN_PENDANT / 2))
     _both(tree, "BOOM HEAD PL", head, at, body)
     _pin(hardware, pose.head, PIN_HEAD, high + 10, body, "hoist_rope_pin")

@@ -19,7 +19,7 @@ from .linkage import Pose
 from .sheet import write
 from .truth import FRAME, truth
 
-POSES = {"working": Pose(math.radians(60.0)), "lowered": Pose(math.radians(30.0))}
+POSES = {"working": Pose(math.radians(73.0)), "lowered": Pose(math.radians(30.0))}
 
 
 def draw_machine(pose: Pose) -> Assembly:
