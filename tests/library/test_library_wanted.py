@@ -29,6 +29,7 @@ def test_which_types_there_are() -> None:
     assert set(TYPES) == SHEET_ONLY | {
         "articulated_dump_truck",
         "backhoe_loader",
+        "crawler_crane",
         "dozer",
         "grader",
         "mobile_crane",

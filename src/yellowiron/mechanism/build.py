@@ -11,11 +11,10 @@ import numpy as np
 
 from yellowiron.mechanism import sensors, sites, values
 from yellowiron.mechanism.actuation import cylinders, drives
-from yellowiron.mechanism.actuation.cylinders import FittedCylinder
 from yellowiron.mechanism.actuation.direct_drives import direct_drives, with_direct_hinges, without_cylinders
 from yellowiron.mechanism.actuation.proportion import proportion_of
 from yellowiron.mechanism.actuation.usual_hinges import hinges_driven_directly
-from yellowiron.mechanism.actuation.winches import winch_drives, with_winches
+from yellowiron.mechanism.actuation.winches import winch_drives, winch_limits, with_winches
 from yellowiron.mechanism.bodies import body, mass
 from yellowiron.mechanism.bodies.choice import Choice
 from yellowiron.mechanism.bodies.hidden_knuckles import with_knuckles
@@ -115,8 +114,11 @@ def build_mechanism(
     powered |= stated
     actuators = drives.actuators(template, frames, fitted, stated, findings, winches=winches)
     slides = {f.cylinder.slide: f for group in fitted.values() for f in group}
+    reached = {f.cylinder.slide: (f.lower, f.upper, f.evidence) for f in slides.values()}
+    reached |= winch_limits(template, frames, specifications, findings)
     joints = tuple(
-        _joint(_sourced(frame, alignment), tree, slides, powered, specifications, findings) for frame in frames.values()
+        _joint(_sourced(frame, alignment), tree, reached, powered, specifications, findings)
+        for frame in frames.values()
     )
     joints = hinges_driven_directly(
         template, joints, direct, lambda body: placement.points_of(placement.rows_of_body(body)), proportion
@@ -256,21 +258,21 @@ def _sourced(frame: JointFrame, alignment: Alignment) -> JointFrame:
 def _joint(
     frame: JointFrame,
     tree: Tree,
-    slides: Mapping[str, FittedCylinder],
+    reached: Mapping[str, tuple[float | None, float | None, Mapping[str, Any]]],
     powered: Mapping[str, Drive],
     specifications: Specifications,
     findings: list[Finding],
 ) -> Joint:
-    """A joint with its sides, sense, limits, drive and evidence."""
+    """A joint with its sides, sense, limits, drive and evidence; `reached`: how far slides of cylinders and ropes go,
+    and the evidence of that."""
     entry = frame.joint
     body0, body1 = tree.sides[entry.name]
     # A slide's axis was found from its first body to its second; extension is from parent to child.
     turned = entry.type == "prismatic" and (body0, body1) != frame.bodies
     source: dict[str, Any] = dict(frame.source)
-    if entry.name in slides:
-        fit = slides[entry.name]
-        lower, upper = fit.lower, fit.upper
-        source |= fit.evidence
+    if entry.name in reached:
+        lower, upper, evidence = reached[entry.name]
+        source |= evidence
     else:
         lower, upper = _limits(entry, specifications, source, findings)
     if "joint" in entry.documents:

@@ -62,7 +62,8 @@ def observe(assembly: Assembly, template: Template, contact: float) -> Observati
     tolerance = contact * size
     touch = Touch(solids, tolerance)
     fixed = any(c.rams for a in template.actuators for c in a.cylinders)
-    drawn = any(r.kind in ("barrel", "rod") for r in template.roles)
+    # A rope in its block looks like a cylinder.
+    drawn = fixed or any(r.kind in ("barrel", "rod") for r in template.roles)
     cylinders = cylinders_of(solids, tolerance, fixed=fixed) if drawn else []
     if any(r.kind == "barrel" for r in template.roles):
         cylinders += solid_cylinders_of(solids, cylinders, tolerance)

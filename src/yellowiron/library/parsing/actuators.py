@@ -27,6 +27,8 @@ _QUANTITY_DIMENSION: Mapping[str, str] = {
     "line_pull": "force",
     "line_speed": "speed",
     "falls": "count",
+    "low_angle": "angle",
+    "high_angle": "angle",
 }
 """What an actuator can need → its dimension. A motor's speed is the tyre's or track's at the ground, or its own: then
 it is of dimension angular_speed."""
@@ -117,6 +119,7 @@ def read_actuators(
                     for key, value in entry.get("defaults", {}).items()
                 },
                 source=entry.get("source", ""),
+                raises=tuple(joint(j, name, "raises", i).name for i, j in enumerate(entry.get("raises", ()))),
             )
         )
     return tuple(actuators)

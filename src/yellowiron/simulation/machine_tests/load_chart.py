@@ -25,6 +25,10 @@ FOOT, HEAD, SLEW = "boom_foot", "boom_head", "slew"
 """The sites that a boom's length is between, and the actuator that turns what it is on."""
 
 
+SAME_BOOM = 0.01
+"""Share by which a boom that does not telescope may differ from a chart's: makers round its length."""
+
+
 @dataclass(frozen=True)
 class ChartLoad:
     """What a chart allows: a mass (kg), hook and slings in it, at a boom's length and a radius, metres."""
@@ -65,7 +69,7 @@ def read_load_chart(path: str | Path) -> tuple[ChartLoad, ...]:
 
 def chart_stability(usd_path: str | Path, chart: Iterable[ChartLoad]) -> tuple[ChartFigure, ...]:
     """Where the machine in a file tips beside its chart, over the front, standing as it is drawn. `YellowironError` for
-    a machine without a boom that slews and telescopes."""
+    a machine without a boom that slews and luffs."""
     mechanism = attached(usd.read_mechanism(usd_path))
     return tuple(_stability(mechanism, row) for row in chart)
 
@@ -91,6 +95,8 @@ def chart_tests(usd_path: str | Path, chart: Iterable[ChartLoad]) -> tuple[Machi
 def _stability(mechanism: Mechanism, row: ChartLoad) -> ChartFigure:
     bench = Bench(mechanism)
     site = next(s for s in mechanism.sites if s.name == HEAD)
+    if why := _other_boom(bench, row):
+        return ChartFigure(row, None, why)
     try:
         state = bench.pose(_steps(mechanism, row))
         head = place(bench.chain, state, site)
@@ -104,18 +110,32 @@ def _steps(mechanism: Mechanism, row: ChartLoad) -> tuple[Mapping[str, Any], ...
     """The pose at a boom's length and a radius, as a measurement's steps."""
     joint = next((a.joints[0].joint for a in mechanism.actuators if a.name == SLEW), None)
     actuators, sites = {a.name for a in mechanism.actuators}, {s.name for s in mechanism.sites}
-    if joint is None or not {"telescope", "luffing", "hoist"} <= actuators or not {FOOT, HEAD} <= sites:
+    if joint is None or not {"luffing", "hoist"} <= actuators or not {FOOT, HEAD} <= sites:
         raise YellowironError(
-            "A load chart is for a crane: its boom slews, luffs and telescopes, and a hook hangs on it",
+            "A load chart is for a crane: its boom slews and luffs, and a hook hangs on it",
             where=mechanism.name,
-            hint="Build it with the type mobile_crane.",
+            hint="Build it with a crane's type (`yellowiron templates list`).",
         )
     length = {"kind": "distance", "sites": [FOOT, HEAD]}
     radius = {"kind": "radius", "joint": joint, "site": HEAD}
-    return (
-        {"solve": [{"actuator": "telescope", "quantity": length, "value": row.boom_length}]},
-        {"solve": [{"actuator": "luffing", "quantity": radius, "value": row.radius}]},
+    luffed = {"solve": [{"actuator": "luffing", "quantity": radius, "value": row.radius}]}
+    if "telescope" not in actuators:
+        return (luffed,)
+    return ({"solve": [{"actuator": "telescope", "quantity": length, "value": row.boom_length}]}, luffed)
+
+
+def _other_boom(bench: Bench, row: ChartLoad) -> str:
+    """Why a row is not this machine's: its boom is as long as it is drawn, and the row's is not; else nothing."""
+    if any(a.name == "telescope" for a in bench.mechanism.actuators):
+        return ""
+    foot, head = (
+        place(bench.chain, bench.pose(()), next(s for s in bench.mechanism.sites if s.name == name))[:3]
+        for name in (FOOT, HEAD)
     )
+    drawn = float(np.linalg.norm(np.asarray(head) - np.asarray(foot)))
+    if abs(drawn - row.boom_length) <= SAME_BOOM * drawn:
+        return ""
+    return f"its boom is {drawn:.2f} m long, not {row.boom_length:g} m"
 
 
 def _hanging(mechanism: Mechanism) -> float:

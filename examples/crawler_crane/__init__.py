@@ -1,0 +1,1 @@
+"""Draws the example crawler crane."""
