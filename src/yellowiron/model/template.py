@@ -210,11 +210,10 @@ class CylinderTemplate:
 @dataclass(frozen=True)
 class ActuatorTemplate:
     """What one lever commands. `specifications` maps a quantity (bore, rod_diameter, stroke, closed_length, pressure,
-    flow, extend_time, retract_time, speed, torque, line_pull, line_speed, falls, low_angle, high_angle) to the wanted
-    name that gives it; `defaults` gives SI values used, and said to be used, where no sheet does. `joints` are the
-    motor joints where `kind` is `motor`. A `winch` moves its cylinders' slides by rope: they are no cylinders, and have
-    no pressure. One that `raises` a boom by a rope between two pins goes as far as the boom's angles say: the boom's
-    hinge, then joints, of which the first that is there ends the line from the hinge whose angle is printed."""
+    flow, extend_time, retract_time, speed, torque, line_pull, line_speed, falls, low_angle, high_angle) to the
+    wanted name that gives it; `defaults` are SI values where no sheet gives one. `joints` are a `motor`'s. A
+    `winch` moves its cylinders' slides by rope; one that `raises` a boom (its hinge, then joints, the first of
+    which ends the line whose angle is printed) as far as its angles."""
 
     name: str
     kind: Literal["cylinder", "motor", "winch"]
