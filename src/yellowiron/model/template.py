@@ -211,9 +211,8 @@ class CylinderTemplate:
 class ActuatorTemplate:
     """What one lever commands. `specifications` maps a quantity (bore, rod_diameter, stroke, closed_length, pressure,
     flow, extend_time, retract_time, speed, torque, line_pull, line_speed, falls, low_angle, high_angle) to the wanted
-    name that gives it; `defaults` are SI values where no sheet does. `joints` are a `motor`'s. A `winch` moves slides
-    by rope; one that `raises` a boom (hinge, then joints, the first ends the line whose angle is printed) to its
-    angles."""
+    name that gives it; `defaults` (SI) where no sheet does. `joints` are a `motor`'s. A `winch` moves slides by rope,
+    one that `raises` a boom (its hinge, then joints: the first ends the line whose angle is printed) to its angles."""
 
     name: str
     kind: Literal["cylinder", "motor", "winch"]
