@@ -2,6 +2,8 @@
 
 from __future__ import annotations
 
+from typing import Any
+
 import numpy as np
 import pytest
 import trimesh
@@ -10,6 +12,7 @@ from yellowiron.alignment.features.solids import Solid, size_of, solids_of
 from yellowiron.alignment.features.wheels import Wheel, wheels_of
 from yellowiron.alignment.fusion.annealing import labelled
 from yellowiron.alignment.fusion.bonds import Bond
+from yellowiron.alignment.fusion.evidence import Evidence
 from yellowiron.alignment.fusion.judge import field_of, score_of
 from yellowiron.alignment.fusion.stance import Stance, on_wheels, stance_of
 from yellowiron.alignment.fusion.votes import odd_wheels
@@ -176,6 +179,23 @@ def test_a_cylinder_and_its_twin_change_sides_together() -> None:
     found, score = labelled(field, wrong, sweeps=0, chains=1)
     assert found.tolist() == right.tolist()
     assert score == pytest.approx(score_of(field, right))
+
+
+def test_what_is_taken_for_a_part_of_a_larger_machine_pays_for_its_size_piece_by_piece() -> None:
+    """A dozer was read as the frame of a blade: of a machine half as large again all places are nearer together."""
+    machine = solids(*((box(1.0, 1.0, 1.0), (x, y, 0.5)) for x in (0.0, 2.0, 4.0) for y in (-1.0, 1.0)))
+    stance = stance_of(machine, size_of(machine))
+    corners = np.array([(x, y, z) for x in (-0.5, 4.5) for y in (-1.5, 1.5) for z in (0.0, 1.0)])
+    part = stance.as_part(corners, np.zeros(3), np.full(3, 0.3), 0.3, ())
+    times = part.size / stance.size
+    assert times > 1.2 and part.larger == pytest.approx(times) and part.turned().larger == part.larger
+
+    def evidence(stands: Stance) -> Evidence:
+        nothing: Any = ()
+        return Evidence((), (0, 1, 2, 3), (), nothing, nothing, stands, (), nothing, {}, frozenset(), 1.0)
+
+    assert evidence(stance).crowding == 0.0
+    assert evidence(part).crowding == pytest.approx(4 * 3.0 * np.log(times))
 
 
 def test_what_has_no_width_stands_somewhere() -> None:

@@ -24,8 +24,6 @@ from yellowiron.model.template import Template
 
 PARTS = (1, 2)
 """What begins so many joints from the root may be all that is drawn."""
-NARROWER = 1.8
-"""What is drawn is not a part of a machine that usually is so many times wider for its length."""
 
 
 @dataclass(frozen=True, eq=False)
@@ -54,6 +52,12 @@ class Evidence:
         """The bonds of the leading pieces, numbered as these are."""
         number = {k: n for n, k in enumerate(self.leading)}
         return [replace(b, a=number[b.a], b=number[b.b]) for b in self.bonds if b.a in number and b.b in number]
+
+    @property
+    def crowding(self) -> float:
+        """What speaks against a machine that is so much larger than what is drawn, in nats: places are told in machine
+        sizes, and the larger it is the nearer to each other they are, whatever is there."""
+        return 3.0 * float(np.log(self.stance.larger)) * len(self.leading)
 
     def votes(self, template: Template) -> Votes:
         """What speaks for every piece and body of a template with its variants decided."""
@@ -135,8 +139,5 @@ def _as_parts(stance: Stance, evidence: Evidence, template: Template) -> list[St
         usual = [resolved.usual[b] for b in sorted(bodies) if b in resolved.usual]
         if usual and len(points):
             low, high = np.min([u.low for u in usual], axis=0), np.max([u.high for u in usual], axis=0)
-            long, wide, _ = np.ptp(points @ stance.rotation.T, axis=0)
-            if NARROWER * wide * (high - low)[0] < long * (high - low)[1]:
-                continue  # a blade on its frame is wider than long, a dozer is not
             found.append(stance.as_part(points, low, high, sum(u.area for u in usual) / total, rigid - bodies))
     return found

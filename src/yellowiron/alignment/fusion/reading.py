@@ -204,7 +204,8 @@ def _said(evidence: Evidence, votes: Votes, bodies: Sequence[str], labels: np.nd
 def _lacking(evidence: Evidence, bodies: Sequence[str], labels: np.ndarray, template: Template) -> float:
     """What a labelling loses by what the variant has and nothing plays."""
     played = _drawn(evidence, bodies, labels, template)
-    return weighed(lacks(template, played, evidence.stance.absent), weights())
+    lacking = lacks(template, played, evidence.stance.absent)
+    return weighed({**lacking, "place": evidence.crowding}, weights())
 
 
 def _field(evidence: Evidence, votes: Votes, resolved: Template) -> Field:

@@ -54,8 +54,8 @@ LYING = 0.05
 class Stance:
     """`rotation` (3, 3): rows forward, left, up, in the CAD frame; `origin` (3,) on the ground, in the middle of what
     the machine stands on; `size` metres; `likeness` 0 to 1, how alike left and right are; `wheeled`: whether it stands
-    on wheels that were found. Where only a part of a machine is `drawn`, `absent` bodies are not in it. `told`: a
-    person said where its front is."""
+    on wheels that were found. Where only a part of a machine is `drawn`, `absent` bodies are not in it, and its size is
+    `larger` times what the surface tells by itself. `told`: a person said where its front is."""
 
     rotation: Floats
     origin: Floats
@@ -65,6 +65,7 @@ class Stance:
     wheeled: bool = False
     absent: frozenset[str] = frozenset()
     told: bool = False
+    larger: float = 1.0
 
     @property
     def left(self) -> Floats:
@@ -82,7 +83,8 @@ class Stance:
         ends = np.array([own.min(axis=0), own.max(axis=0)])
         size = float(np.linalg.norm(ends[1] - ends[0]) / np.linalg.norm(high - low))
         middle = self.rotation.T @ (ends.mean(axis=0) - 0.5 * (low + high) * size)
-        return replace(self, origin=middle, size=size, drawn=drawn, absent=frozenset(absent))
+        larger = size / self.size * self.larger
+        return replace(self, origin=middle, size=size, drawn=drawn, absent=frozenset(absent), larger=larger)
 
     def matrix(self) -> Floats:
         """(4, 4) from CAD metres to the machine's frame."""
