@@ -88,14 +88,18 @@ def test_number_and_unit_in_columns_of_their_own(tmp_path: Path, walls: bool) ->
     }  # fmt: skip
 
 
-@pytest.mark.parametrize(("bold", "ruled"), [(True, False), (False, False), (False, True)])
-def test_headings_in_the_margin_hold_for_the_rows_beside_them(tmp_path: Path, bold: bool, ruled: bool) -> None:
+@pytest.mark.parametrize(
+    ("bold", "centred", "ruled"), [(True, False, False), (False, False, False), (False, True, True)]
+)
+def test_headings_in_the_margin_hold_for_the_rows_beside_them(
+    tmp_path: Path, bold: bool, centred: bool, ruled: bool
+) -> None:
     c = canvas(tmp_path / "a.pdf")
     put(c, 36, 810, "MW 120", size=16, bold=True)
     y = _TOP
     for number, group in enumerate(("Lift cylinder", "Tilt cylinder")):
         c.line(36, y + 10, 400, y + 10) if ruled else None
-        put(c, 36, y, group, bold=bold)
+        put(c, 36, y - 13 * centred, group, bold=bold)
         for k, part in enumerate(("Bore", "Rod diameter", "Stroke")):
             put(c, 160, y, part)
             put(c, 300, y, f"{(150, 85, 764)[k] + 10 * number} mm", right=True)

@@ -136,7 +136,7 @@ def _halves(cell: Cell) -> tuple[Cell, ...]:
     wide, at = max(gaps, default=(0.0, 0))
     if wide < _APART * (right - left) or not all(kind_of(p) == "text" for p in pieces[:at]):
         return (cell,)
-    if not all(kind_of(p) in ("value", "unit", "mark") for p in pieces[at:]):
+    if not any(looks_like_value(p.bare) for p in pieces[at:]):
         return (cell,)
     x = (ends[at - 1] + pieces[at].x0) / 2
     sides = ((left, top, x, bottom), (first, first + 1)), ((x, top, right, bottom), (first + 1, last))

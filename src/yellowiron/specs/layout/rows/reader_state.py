@@ -7,6 +7,7 @@ from dataclasses import dataclass, field
 
 from yellowiron.specs.layout.rows.headings import Heading
 from yellowiron.specs.layout.rows.lines import TextBlock, TextLine
+from yellowiron.specs.layout.rows.margin import Beside
 from yellowiron.specs.layout.statement import TextPiece
 from yellowiron.specs.pages.words import Page
 
@@ -45,8 +46,7 @@ class ReaderState:
     headings: list[Heading] = field(default_factory=list)
     orphans: list[int] = field(default_factory=list)
     last: tuple[Sequence[TextLine], range, str] | None = None
-    group: tuple[TextPiece, float] | None = None
-    """The first label of a row that has two, and where the second begins."""
+    beside: Beside | None = None
     corner: TextPiece | None = None
     """The part that a table's corner names, beside the heads of its columns ("Blade | 6S | 6SU")."""
     worded: tuple[TextPiece, ...] = ()
@@ -61,7 +61,7 @@ class ReaderState:
             self.kept = []
         elif self.heads and not self.data_since_heads and all(len(line) > 1 for line in self.heads):
             self.kept = list(self.heads)  # a table's own heads, above its first section
-        self.section, self.unit, self.circuit, self.corner, self.group = heading.text, "", None, None, None
+        self.section, self.unit, self.circuit, self.corner = heading.text, "", None, None
         self.headings.append(heading)
         self.context, self.pending, self.heads = [], [], [heads] if heads else list(self.kept)
         self.indented = self.data_since_heads = False

@@ -5,14 +5,17 @@ from __future__ import annotations
 from collections.abc import Sequence
 from dataclasses import replace
 
+from yellowiron.specs.language.vocabulary import has_cjk
 from yellowiron.specs.layout.rows.cells import (
     ValueCell,
+    add_continuation,
     cells_of,
+    continues,
     heads_over,
     statement_of,
 )
 from yellowiron.specs.layout.rows.lines import TextLine
-from yellowiron.specs.layout.rows.reader_state import ReaderState
+from yellowiron.specs.layout.rows.reader_state import ReaderState, stacked
 from yellowiron.specs.layout.statement import (
     COUNTED,
     EXAMPLE,
@@ -26,9 +29,6 @@ from yellowiron.specs.layout.statement import (
 from yellowiron.specs.layout.tolerances import INDENT, LONGEST_LABEL
 from yellowiron.specs.pages.words import Page
 
-_LEVEL = 2.0
-"""Points within which the left edges of labels lie."""
-
 
 def read_values(page: Page, row: Sequence[TextLine], state: ReaderState, number: int, found: list[Statement]) -> None:
     """Adds the statements of a row with values, `number` theirs, to those found above it."""
@@ -37,7 +37,13 @@ def read_values(page: Page, row: Sequence[TextLine], state: ReaderState, number:
     if not cells:
         return
     pending, state.pending = state.pending, []
+    if pending and cells[0].label and _broken(pending[-1], cells[0].label[0]):
+        cells = [replace(c, label=[pending[-1], *c.label]) if c.label is cells[0].label else c for c in cells]
+        pending = pending[:-1]
     has_label = any(c.label for c in cells)
+    if not has_label and not pending and found and continues(found, cells):
+        add_continuation(found, cells)
+        return
     _end_heads(row, cells, state)
     _keep_sub_heading(cells, pending, state)
     context = [*state.context, *(p for p in pending if p not in state.context)]
@@ -45,8 +51,6 @@ def read_values(page: Page, row: Sequence[TextLine], state: ReaderState, number:
         context.insert(0, state.circuit)
     if state.corner is not None and state.heads:
         context.insert(0, state.corner)
-    if (group := _group_of(cells, state)) is not None:
-        context.insert(0, group)
     marked = bool(EXAMPLE.search(state.section)) or any(
         EXAMPLE.search(p.text) for p in [*context, *(q for c in cells for q in [*c.notes, *c.label, *c.values])]
     )
@@ -62,17 +66,9 @@ def read_values(page: Page, row: Sequence[TextLine], state: ReaderState, number:
             state.orphans = list(range(len(found) - len(cells), len(found)))
 
 
-def _group_of(cells: Sequence[ValueCell], state: ReaderState) -> TextPiece | None:
-    """The first of two labels of a row above, which holds for the rows that begin where its second one did: "Lift
-    cylinder | Bore" over " | Stroke"."""
-    label = cells[0].label
-    if len(label) > 1 and label[0].x1 < label[1].x0:  # side by side, not a label in two lines
-        state.group = (label[0], label[1].x0)
-    elif state.group is not None and label and abs(label[0].x0 - state.group[1]) < _LEVEL:
-        return state.group[0]
-    else:
-        state.group = None
-    return None
+def _broken(above: TextPiece, label: TextPiece) -> bool:
+    """Whether a label of a script without spaces is broken over two lines, perhaps within a word."""
+    return stacked(above, label) and abs(above.x0 - label.x0) < 1 and has_cjk(above.text)
 
 
 def _keep_sub_heading(cells: Sequence[ValueCell], pending: Sequence[TextPiece], state: ReaderState) -> None:
