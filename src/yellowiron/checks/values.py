@@ -118,10 +118,10 @@ class Side:
 class StageJoint:
     """A joint. `freedoms` are the directions it leaves free in its own frame, axis first (a hinge: `rotX` for token X);
     `lower` and `upper` are of a hinge's or slide's coordinate; `coordinate` is where it is drawn. `held` means that
-    something other than a drive holds it (friction, a spring, a mimic), `damped` that something slows it. `leader` is
-    the joint that it follows: "" where its mimic names none, None where it has no mimic; `ratio` and `offset` (m or
-    rad) are the mimic's. `spans`: how far the geometry of a slide's two bodies reaches along its axis, metres from the
-    world's origin."""
+    something other than its own drive holds it (friction, a spring, a mimic, a driven distance), `damped` that
+    something slows it. `leader` is the joint that it follows: "" where its mimic names none, None where it has no
+    mimic; `ratio` and `offset` (m or rad) are the mimic's. `spans`: how far the geometry of a slide's two bodies
+    reaches along its axis, metres from the world's origin."""
 
     path: str
     type: str

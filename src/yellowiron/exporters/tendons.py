@@ -2,13 +2,14 @@
 
 from __future__ import annotations
 
-from collections.abc import Collection, Iterable, Iterator, Sequence
+from collections.abc import Iterable, Iterator, Sequence
 from dataclasses import dataclass, replace
 
 import numpy as np
 
 from yellowiron.model.geometry import Floats
 from yellowiron.model.mechanism import Body, Cylinder, Joint, Mechanism, Vector
+from yellowiron.support.graphs import components, spanning_forest
 from yellowiron.support.vectors import triple
 
 ASIDE = 1e-3
@@ -33,10 +34,10 @@ def with_tendons(mechanism: Mechanism) -> tuple[Mechanism, tuple[Tendon, ...]]:
     """The machine without the halves of its cylinders, and the tendons that stand for those of them that are driven.
 
     A cylinder stays that has no pins (rams), whose pins are off its line, whose halves carry more than what is on their
-    pins, or without which something would hang on nothing. Half its mass's moment goes to either pin, so that mass and
-    centre of mass are the machine's as drawn. What was pinned to a pin of it is pinned to each other there; the tree
-    runs over the pivots that are left, with as few cuts as there are loops, and what no drive moves in these has no
-    limits but the strokes. `actuators`, `cylinders` and `loops` are as before.
+    pins, or without which something would hang on nothing. Its mass is on its two pins as a lever's would be, so that
+    the machine's mass and, as drawn, its centre are what they were. What was pinned to a pin of it is pinned to each
+    other there; the tree runs over the pivots that are left, with as few cuts as there are loops, and what no drive
+    moves in these has no limits but the strokes. `actuators`, `cylinders` and `loops` are as before.
     """
     joints, tendons, gone = list(mechanism.joints), [], dict[str, Tendon]()
     for cylinder in mechanism.cylinders:
@@ -45,8 +46,8 @@ def with_tendons(mechanism: Mechanism) -> tuple[Mechanism, tuple[Tendon, ...]]:
         if tendon is None or {cylinder.barrel, cylinder.rod} & needed:
             continue
         left = _pinned_together(cylinder, tendon, joints)
-        others = {b.name for b in mechanism.bodies} - {cylinder.barrel, cylinder.rod} - set(gone)
-        if _reached(mechanism, left) >= others:
+        others = [b.name for b in mechanism.bodies if b.name not in {cylinder.barrel, cylinder.rod, *gone}]
+        if _whole(mechanism, others, left):
             joints = left
             gone |= {cylinder.barrel: tendon, cylinder.rod: tendon}
             if tendon.slide.drive is not None:
@@ -130,12 +131,19 @@ def _pinned_together(cylinder: Cylinder, tendon: Tendon, joints: Iterable[Joint]
     return left
 
 
-def _reached(mechanism: Mechanism, joints: Collection[Joint]) -> set[str]:
-    found = {mechanism.root, *mechanism.floating}
-    links = [joint for joint in joints if joint.type != "distance"]
-    while more := {b for j in links if {j.body0, j.body1} & found for b in (j.body0, j.body1)} - found:
-        found |= more
-    return found
+def _whole(mechanism: Mechanism, bodies: Iterable[str], joints: Iterable[Joint]) -> bool:
+    """Whether joints hold all these bodies to what the trees begin with."""
+    ends = [_ends(joint, mechanism) for joint in joints if joint.type != "distance"]
+    return len(components((_head(body, mechanism) for body in bodies), ends)) == 1
+
+
+def _ends(joint: Joint, mechanism: Mechanism) -> tuple[str, str]:
+    return _head(joint.body0, mechanism), _head(joint.body1, mechanism)
+
+
+def _head(body: str, mechanism: Mechanism) -> str:
+    """The body; those that trees begin with are as one."""
+    return mechanism.root if body in mechanism.floating else body
 
 
 def _tree(mechanism: Mechanism, joints: Sequence[Joint]) -> Iterator[Joint]:
@@ -146,22 +154,10 @@ def _tree(mechanism: Mechanism, joints: Sequence[Joint]) -> Iterator[Joint]:
         stays = joint.type == "prismatic" or joint.drive is not None or joint.follows is not None
         return not stays, joint.cut, joint.type == "spherical"
 
-    group = {body.name: body.name for body in mechanism.bodies}
-    heads = (mechanism.root, *mechanism.floating)
-
-    def head(body: str) -> str:
-        while group[body] != body:
-            body = group[body]
-        return body
-
-    inside = set()
-    for joint in sorted((j for j in joints if j.type != "distance"), key=rank):
-        one, other = head(joint.body0), head(joint.body1)
-        if one != other and not (one in heads and other in heads):
-            first, second = (one, other) if one in heads else (other, one)
-            group[second] = first
-            inside.add(joint.name)
-    reached = set(heads)
+    links = sorted((joint for joint in joints if joint.type != "distance"), key=rank)
+    forest, _ = spanning_forest(links, lambda joint: _ends(joint, mechanism))
+    inside = {joint.name for joint in forest}
+    reached = {mechanism.root, *mechanism.floating}
     turned: set[str] = set()
     while grown := [j for j in joints if j.name in inside and len({j.body0, j.body1} & reached) == 1]:
         turned |= {j.name for j in grown if j.body1 in reached}

@@ -45,9 +45,8 @@ class LinkRead:
 @dataclass(frozen=True, eq=False)
 class JointRead:
     """A joint between two links ("" the world): `kind` one of fixed, revolute, prismatic, spherical, planar, free,
-    distance (limits from the drawn one);
-    `anchors` (3,) at either side and `axis` (3,) in the model. `moved`: whether something drives or holds it;
-    `pulled`: whether a driven distance spans it."""
+    distance (limits from the drawn one); `anchors` (3,) at either side and `axis` (3,) in the model. `moved`: whether
+    something drives or holds it; `pulled`: whether a driven distance spans it."""
 
     name: str
     kind: str
