@@ -143,7 +143,7 @@ def test_a_target_is_followed_a_fiftieth_of_a_second_behind():
     assert drives and all(d.damping / d.stiffness <= 0.02 for d in drives)
 
 
-def test_weight_makes_no_drive_outrun_its_speed_and_full_force_is_there_at_half_of_it():
+def test_weight_makes_no_drive_outrun_its_speed_and_full_force_hardly_slows_it():
     machine = slider()
     forces = {"pivot": 2e5, "slide": 1e3}
     joints = tuple(
@@ -155,7 +155,7 @@ def test_weight_makes_no_drive_outrun_its_speed_and_full_force_is_there_at_half_
     held = 9.81 * (900.0 * 1.0 + 300.0 * 2.0)
     assert pivot.armature > 0.0 and "no load changes" in pivot.source
     assert held / pivot.damping <= 1.1 * OUTRUN * 0.45
-    assert 2e5 / pivot.damping <= 0.5 * 0.45
+    assert 2e5 / pivot.damping <= 1.1 * 0.12 * 0.45
     # Nothing lifts the slide, and the mass that it moves bears the damping that its force asks for.
     assert done.joint("slide").drive.armature == 0.0
 
