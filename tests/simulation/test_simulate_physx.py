@@ -16,10 +16,9 @@ from yellowiron.usd import read_mechanism
 pytestmark = [pytest.mark.slow, installed("physx")]
 
 
-@pytest.mark.parametrize(
-    ("base", "actuators"), [("fixed", ["boom"]), ("floating", ["bucket"]), ("floating", ["steering"])]
-)
-def test_full_strokes_with_the_rated_payload(wheel_loader: Path, base: Base, actuators: list[str]) -> None:
+@pytest.mark.parametrize(("base", "actuators"), [("fixed", None), ("floating", ["bucket"]), ("floating", ["steering"])])
+def test_full_strokes_with_the_rated_payload(wheel_loader: Path, base: Base, actuators: list[str] | None) -> None:
+    """In the air with all levers, as a build drives it: steering is weak for a loaded front, and swung out of place."""
     payload = rated_payload(read_mechanism(wheel_loader))
     result = simulate(wheel_loader, engine="physx", base=base, payload_kg=payload.mass, actuators=actuators)
     assert result.completed and result.branches_kept

@@ -38,11 +38,13 @@ _SAMPLE = 0.05
 class Pace:
     """The largest acceleration `limits` (n,) of a target at `places` (n,) along its way, m/s² or rad/s², and the
     largest `speeds` (n, 2), m/s or rad/s, in the negative and in the positive direction. A motor's are the same
-    wherever it stands."""
+    wherever it stands. `masses` (n,): what is moved there, kg or kg·m²: where that changes along the way, a force goes
+    into the change too, d(½mv²)/dx = F."""
 
     places: Floats
     limits: Floats
     speeds: Floats | None = None
+    masses: Floats | None = None
 
 
 @dataclass(frozen=True)
@@ -174,28 +176,34 @@ def sampled(count: int, timestep: float) -> NDArray[np.int64]:
 def travel(start: float, end: float, speed: float, timestep: float, pace: Pace | None = None) -> Floats:
     """Targets from one place to another, as fast as speed, `RAMP` and pace allow, from rest to rest.
 
-    On a fine grid along the way the squared speed grows from both ends by twice the acceleration allowed there.
+    On a fine grid along the way, from both ends, the squared speed grows by no more than twice the acceleration allowed
+    there, and the energy by no more than the work of the force that this acceleration takes.
     """
     way = abs(end - start)
     if way == 0.0:
         return np.array([end])
     places = np.linspace(start, end, _GRID)
     step = way / (_GRID - 1)
-    limits = np.full(_GRID, speed / RAMP)
+    limits, masses = np.full(_GRID, speed / RAMP), np.ones(_GRID)
     if pace is not None:
         limits = np.minimum(limits, np.interp(places, pace.places, pace.limits))
+        if pace.masses is not None:
+            masses = np.interp(places, pace.places, pace.masses)
     # At a dead point, where no force moves it, it creeps on.
     limits = np.maximum(limits, _CREEPS * speed / RAMP)
-    gain = 2.0 * step * 0.5 * (limits[1:] + limits[:-1])
+    gain = step * (limits[1:] + limits[:-1])
+    work = step * ((masses * limits)[1:] + (masses * limits)[:-1])
     speeds = np.full(_GRID, speed)
     if pace is not None and pace.speeds is not None:
         speeds = np.minimum(speeds, np.interp(places, pace.places, pace.speeds[:, int(end > start)]))
     squared = speeds**2
     squared[0] = squared[-1] = 0.0
     for i in range(1, _GRID):
-        squared[i] = min(squared[i], squared[i - 1] + gain[i - 1])
+        reached = (masses[i - 1] * squared[i - 1] + work[i - 1]) / masses[i]
+        squared[i] = min(squared[i], squared[i - 1] + gain[i - 1], reached)
     for i in range(_GRID - 2, -1, -1):
-        squared[i] = min(squared[i], squared[i + 1] + gain[i])
+        reached = (masses[i + 1] * squared[i + 1] + work[i]) / masses[i]
+        squared[i] = min(squared[i], squared[i + 1] + gain[i], reached)
     speeds = np.sqrt(squared)
     time = np.concatenate([[0.0], np.cumsum(2.0 * step / (speeds[1:] + speeds[:-1]))])
     now = np.minimum(np.arange(1, math.ceil(float(time[-1]) / timestep) + 1) * timestep, time[-1])

@@ -60,7 +60,7 @@ def _motor(chain: ClosedChain, motion: Motion) -> Pace:
 def _pace(chain: ClosedChain, motion: Motion) -> Pace:
     drive = chain.mechanism.joint(motion.joint).drive
     places: Floats = np.linspace(motion.low, motion.high, _POINTS)
-    limits, speeds = np.full(_POINTS, math.inf), np.full((_POINTS, 2), math.inf)
+    limits, masses, speeds = np.full(_POINTS, math.inf), np.full(_POINTS, math.nan), np.full((_POINTS, 2), math.inf)
     state = chain.drawn
     for number, place in enumerate(places.tolist()):
         state, fraction = chain.reach({motion.joint: place}, start=state)
@@ -68,9 +68,11 @@ def _pace(chain: ClosedChain, motion: Motion) -> Pace:
         pull, push = drive.forces if drive is not None else (math.inf, math.inf)
         if fraction == 1.0 and math.isfinite(spare := min(push - held, pull + held)):
             spare = max(0.1 * min(push, pull), spare)
-            limits[number] = SPARE * spare / chain.effective_mass(state, motion.joint)
+            masses[number] = chain.effective_mass(state, motion.joint)
+            limits[number] = SPARE * spare / masses[number]
         if fraction == 1.0 and drive is not None and drive.rated:
             # A drive whose speed is limited has its force by how much slower than rated it is.
             hindered = np.maximum(0.0, np.array([-held, held])) / drive.damping
             speeds[number] = np.maximum(0.1 * np.array(drive.speeds), np.array(drive.speeds) - hindered)
-    return Pace(places, limits, speeds)
+    known = np.isfinite(masses)
+    return Pace(places, limits, speeds, np.interp(places, places[known], masses[known]) if known.any() else None)
