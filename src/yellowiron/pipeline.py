@@ -231,5 +231,5 @@ def _driven(machine_file: Path, engine: str, progress: Progress) -> tuple[dict[s
     template's tests. As a document, and what there is to look at."""
     from yellowiron import simulation
 
-    load = simulation.rated_payload(usd.read_mechanism(machine_file))
+    load = simulation.payload_over_strokes(usd.read_mechanism(machine_file))
     return simulation.examine(machine_file, engine=engine, payload=load, progress=progress)

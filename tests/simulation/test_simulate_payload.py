@@ -9,7 +9,7 @@ import pytest
 
 from yellowiron.model.errors import YellowironError
 from yellowiron.model.mechanism import Mechanism
-from yellowiron.simulation.payload import parse_payload, rated_payload, tool, with_payload
+from yellowiron.simulation.payload import parse_payload, payload_over_strokes, rated_payload, tool, with_payload
 
 
 def test_the_templates_first_rule_comes_first(mechanism: Mechanism) -> None:
@@ -21,6 +21,17 @@ def test_the_templates_first_rule_comes_first(mechanism: Mechanism) -> None:
 
 def test_else_the_next_that_is_known(mechanism: Mechanism) -> None:
     assert rated_payload(mechanism).mass == pytest.approx(0.05 * 1800.0)
+
+
+def test_what_is_rated_at_one_place_is_not_driven_over_full_strokes(mechanism: Mechanism) -> None:
+    """A crane's: its luffing cylinder was said to be too weak for a load that its chart has at three metres alone."""
+    assert payload_over_strokes(mechanism) == rated_payload(mechanism)
+    assert mechanism.payload is not None
+    rules = tuple(dataclasses.replace(rule, at="Radius at Maximum Capacity") for rule in mechanism.payload.rated)
+    crane = dataclasses.replace(mechanism, payload=dataclasses.replace(mechanism.payload, rated=rules))
+    driven = payload_over_strokes(crane)
+    assert rated_payload(crane).mass > 0.0 and driven.mass == 0.0
+    assert "90 kg are rated at Radius at Maximum Capacity alone" in driven.source
 
 
 def test_a_template_without_a_rule_rates_nothing(mechanism: Mechanism) -> None:

@@ -14,11 +14,13 @@ SPARSE = "sparse"
 @dataclass(frozen=True)
 class RatedLoad:
     """Where a rated payload can come from: `factor` times the value (SI) of a wanted name is kilograms, so that of a
-    volume it is a density; `source` says by which rule."""
+    volume it is a density; `source` says by which rule. `at`: the wanted name that says where it is rated, if it is
+    nowhere else (a crane's radius)."""
 
     specification: str
     factor: float
     source: str = ""
+    at: str = field(default="", metadata={SPARSE: True})
 
 
 @dataclass(frozen=True)

@@ -45,7 +45,7 @@ if TYPE_CHECKING:
         chart_tests,
         read_load_chart,
     )
-    from yellowiron.simulation.payload import parse_payload, rated_payload
+    from yellowiron.simulation.payload import parse_payload, payload_over_strokes, rated_payload
     from yellowiron.simulation.registry import ENGINES, installed_engines
     from yellowiron.simulation.strokes.result import SimulationResult, simulation_document
     from yellowiron.simulation.strokes.run import simulate
@@ -69,6 +69,7 @@ __all__ = [
     "figures_document",
     "installed_engines",
     "parse_payload",
+    "payload_over_strokes",
     "rated_payload",
     "read_load_chart",
     "run_tests",
@@ -97,6 +98,7 @@ __getattr__, __dir__ = lazy_names(
         "figures_document": "machine_tests.figures",
         "installed_engines": "registry",
         "parse_payload": "payload",
+        "payload_over_strokes": "payload",
         "rated_payload": "payload",
         "read_load_chart": "machine_tests.load_chart",
         "run_tests": "machine_tests.hydraulics",

@@ -18,10 +18,11 @@ MATERIAL_DENSITY = 1800.0
 
 @dataclass(frozen=True)
 class RatedPayload:
-    """Kilograms, and where that comes from."""
+    """Kilograms, where that comes from, and at which specification's place alone, "" for anywhere."""
 
     mass: float
     source: str
+    at: str = ""
 
 
 def rated_payload(mechanism: Mechanism) -> RatedPayload:
@@ -31,17 +32,26 @@ def rated_payload(mechanism: Mechanism) -> RatedPayload:
         value, _, _ = specified(mechanism, rule.specification)
         if value is not None:
             words = f"{rule.specification}, {value:g}, × {rule.factor:g}"
-            return RatedPayload(rule.factor * value, f"{words}: {rule.source}" if rule.source else words)
+            return RatedPayload(rule.factor * value, f"{words}: {rule.source}" if rule.source else words, rule.at)
     names = " or ".join(rule.specification for rule in rules)
     return RatedPayload(0.0, f"no sheet gives {names}" if names else "the template says no rated payload")
 
 
+def payload_over_strokes(mechanism: Mechanism) -> RatedPayload:
+    """What full strokes are driven with: the rated payload, but nothing where that is rated at one place alone (a
+    crane's radius), since no drive has to hold it elsewhere."""
+    rated = rated_payload(mechanism)
+    if not rated.at:
+        return rated
+    return RatedPayload(0.0, f"{rated.mass:g} kg are rated at {rated.at} alone: strokes are driven empty")
+
+
 def parse_payload(text: str, usd_path: str | Path) -> RatedPayload:
-    """A payload as a person gives it: kilograms, or `rated` for the machine file's own (`rated_payload`)."""
+    """A payload as a person gives it: kilograms, or `rated` for the machine file's own (`payload_over_strokes`)."""
     if text.strip().casefold() == "rated":
         from yellowiron.usd import read_mechanism
 
-        return rated_payload(read_mechanism(usd_path))
+        return payload_over_strokes(read_mechanism(usd_path))
     try:
         value, unit = parse_quantity(text, where="--payload")
     except YellowironError:

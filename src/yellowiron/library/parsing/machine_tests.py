@@ -27,7 +27,10 @@ def read_tests(document: Document) -> tuple[PayloadTemplate | None, tuple[Machin
     entry = document.data.get("payload")
     payload = None
     if entry is not None:
-        rated = (RatedLoad(r["specification"], float(r["factor"]), r.get("source", "")) for r in entry.get("rated", ()))
+        rated = (
+            RatedLoad(r["specification"], float(r["factor"]), r.get("source", ""), r.get("at", ""))
+            for r in entry.get("rated", ())
+        )
         site, *others = [entry["site"]] if isinstance(entry["site"], str) else entry["site"]
         payload = PayloadTemplate(site, tuple(rated), tuple(others))
     tests: list[MachineTest] = []
