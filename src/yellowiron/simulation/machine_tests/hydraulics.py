@@ -34,7 +34,11 @@ from yellowiron.simulation.payload import rated_payload, with_payload
 from yellowiron.simulation.registry import find_engine, import_engine
 
 LEAN = math.radians(0.1)
-"""Radians: a machine that leans by more than this since the load came on is tipping; on its tyres it gives a tenth."""
+"""Radians: a machine that leans by more than this since the load came on is tipping, unless it comes to rest there (it
+has rocked onto the other ends of its tracks); on its tyres it gives a tenth."""
+_RESTS, _STILL = 1.0, 0.2
+"""Seconds that a leaning machine is looked at under the same force, and those at the end in which it must lean by no
+more than a tenth of `LEAN` to be at rest."""
 TIPPED = math.radians(5.0)
 GIVEN = 0.005
 """Metres: a cylinder that went back by this has given way."""
@@ -266,23 +270,45 @@ def _grow(
     upright, heights = rig.upright(), rig.heights()
     start = rig.coordinate(slide[0]) if slide else 0.0
     look, point, force = max(1, round(_LOOK / rig.timestep)), rig.place(site, offset), 0.0
+
+    def press(newtons: float) -> None:
+        rig.engine.push(site.body, newtons * direction, point)
+        rig.step(rig.pressed(own, more, newtons))
+
     for number in range(rig.steps(_QUICK + (_MOST - _QUICK_SHARE) / _SLOW)):
         now = (number + 1) * rig.timestep
         share = _QUICK_SHARE * now / _QUICK if now < _QUICK else _QUICK_SHARE + _SLOW * (now - _QUICK)
         force = share * scale
-        rig.engine.push(site.body, force * direction, point)
-        rig.step(rig.pressed(own, more, force))
+        press(force)
         if number % look:
             continue
         point = rig.place(site, offset)
         if not np.isfinite(point).all():
             return None, "the simulation broke down"
-        if math.acos(min(1.0, float(rig.upright() @ upright))) > LEAN:
+        if _lean(rig, upright) > LEAN:
+            if _comes_to_rest(rig, upright, force, press):
+                upright, heights = rig.upright(), rig.heights()
+                continue
             risen = [name for name, height in rig.heights().items() if height > heights[name] + 0.5 * LEAN]
             return force, f"{', '.join(risen)} left the ground" if risen else "the machine tipped"
         if slide and slide[1] * (rig.coordinate(slide[0]) - start) < -GIVEN:
             return force, "the cylinder gave way at its relief pressure"
     return None, f"nothing gave up to {100.0 * _MOST:.0f} % of what statics says"
+
+
+def _lean(rig: Rig, upright: Floats) -> float:
+    """Radians between the machine's upright and what it was."""
+    return math.acos(min(1.0, float(rig.upright() @ upright)))
+
+
+def _comes_to_rest(rig: Rig, upright: Floats, force: float, press: Callable[[float], None]) -> bool:
+    """Whether a leaning machine stays where it has leant to, the force held."""
+    for _ in range(rig.steps(_RESTS - _STILL)):
+        press(force)
+    before = _lean(rig, upright)
+    for _ in range(rig.steps(_STILL)):
+        press(force)
+    return (after := _lean(rig, upright)) < 2.0 * LEAN and abs(after - before) < 0.1 * LEAN
 
 
 # ---- motion ---------------------------------------------------------------------------------------------------------
