@@ -91,8 +91,8 @@ def _axle(end: str, out: float) -> SteerAxle:
     return SteerAxle(
         "carrier", x, RADIUS, king=KING, arm=(x - out, KING - 25.0), end=(x - out - 25.0, 330.0),
         ram_z=RADIUS - 75.0, tie_z=RADIUS - 118.0, wheel_z=RADIUS, spindle=(120.0, tread / 2 - KING - 20.0),
-        bore=v.STEER_BORE.value, rod=v.STEER_ROD.value, stroke=v.STEER_STROKE.value, prefix=f"{end}_", on="carrier",
-        fast=True,
+        bore=v.STEER_BORE.value, rod=v.STEER_ROD.value, stroke=v.STEER_STROKE.value, outside=v.STEER_BORE.value + 8.0,
+        prefix=f"{end}_", on="carrier", fast=True,
     )  # fmt: skip
 
 

@@ -66,8 +66,8 @@ JACK_STROKE = Value("Outrigger jack cylinder stroke", 500, "mm")
 JACK_BORE = Value("Outrigger jack cylinder bore", 120, "mm")
 JACK_ROD = Value("Outrigger jack cylinder rod diameter", 90, "mm")
 STEER_STROKE = Value("Steering cylinder stroke", 250, "mm")
-STEER_BORE = Value("Steering cylinder bore", 80, "mm")
-STEER_ROD = Value("Steering cylinder rod diameter", 45, "mm")
+STEER_BORE = Value("Steering cylinder bore", 100, "mm")
+STEER_ROD = Value("Steering cylinder rod diameter", 38, "mm")
 
 # ---- ours: how things are drawn; a sheet does not print these --------
 TYRE_WIDTH = Value("Tyre width", 385, "mm")

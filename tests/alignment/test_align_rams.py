@@ -44,6 +44,18 @@ def test_a_rod_through_both_ends_is_a_ram_s(out: float) -> None:
     assert {ids[i] for i in found.barrel} == {"barrel", "gland"} and {ids[i] for i in found.rod} == {"rod", "piston"}
 
 
+def test_a_wide_ram_between_pins_hangs_on_none_of_them() -> None:
+    """A crane's steering cylinder, knuckles' pins to its left and right: it was told by its rod for bores of up to
+    95 mm, and with 100 mm the whole crane was read as another."""
+    ram = along(barrel=(0.06, 0.05, -0.15, 0.15), rod=(0.019, 0.0, -0.29, 0.29))
+    eyes = {name: place((0.0, 0.0, z), (1.0, 0.0, 0.0)) for name, z in (("left", -0.35), ("right", 0.35))}
+    shape = tube("eye", 0.03, 0.015, 0.04)
+    parts = (*(s.part for s in ram), *(Part(name, name, ("A",), "eye", where) for name, where in eyes.items()))
+    shapes = {"barrel": tube("barrel", 0.06, 0.05, 0.3), "rod": tube("rod", 0.019, 0.0, 0.58), "eye": shape}
+    (found,) = cylinders_of(solids_of(Assembly("a", "synthetic", 1.0, parts, shapes)), TOLERANCE, fixed=True)
+    assert found.fixed
+
+
 @pytest.mark.parametrize(("boss", "pin"), [(0.222, 0.28), (0.16, 0.25), (0.16, 0.22)])
 def test_a_pin_in_a_boss_that_is_wider_between_its_bushes_is_no_ram(boss: float, pin: float) -> None:
     """An excavator's boom foot, arm hinge and bucket link."""

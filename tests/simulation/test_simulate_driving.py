@@ -11,7 +11,7 @@ import pytest
 
 from kit.machines.crawler import crawler, of_steel
 from kit.machines.tracked_template import write_tracked_template
-from yellowiron.kinematics import complete
+from yellowiron.kinematics import ClosedChain, complete
 from yellowiron.library import load_template
 from yellowiron.mechanism import build_mechanism
 from yellowiron.model.errors import YellowironError
@@ -19,6 +19,7 @@ from yellowiron.model.mechanism import Mechanism
 from yellowiron.model.rows import expand
 from yellowiron.model.specification import Specifications
 from yellowiron.model.template import choose
+from yellowiron.simulation.driving.raised import CLEAR, raised
 from yellowiron.simulation.driving.result import driving_document, driving_findings
 from yellowiron.simulation.driving.tracked import course
 from yellowiron.simulation.driving.wheel import driven_wheels
@@ -31,6 +32,22 @@ def test_a_circle_through_an_arc() -> None:
     angle = np.linspace(0.0, 1.5, 50)
     points = np.column_stack([3.0 + 6.2 * np.cos(angle), -1.0 + 6.2 * np.sin(angle)])
     assert circle_radius(points) == pytest.approx(6.2)
+
+
+def test_a_bucket_on_the_ground_is_raised_by_the_boom(mechanism: Mechanism) -> None:
+    """By as much as clears the ground, and nothing where only wheels stand there."""
+    chain, wheels = ClosedChain(mechanism), driven_wheels(mechanism)
+    assert not raised(mechanism, chain, wheels)
+    boom = mechanism.body("boom")
+    hull = np.asarray(boom.hull) - [0.0, 0.0, float(np.asarray(boom.hull)[:, 2].min())]
+    low = dataclasses.replace(
+        mechanism, bodies=tuple(dataclasses.replace(b, hull=hull) if b.name == "boom" else b for b in mechanism.bodies)
+    )
+    ((motion, target),) = raised(low, chain, wheels).items()
+    assert motion.joint == "slide" and motion.low <= target <= motion.high
+    pose = chain.displacement(chain.reach({"slide": target})[0], "boom")
+    rise = float((hull @ pose[2, :3] + pose[2, 3]).min())
+    assert CLEAR <= rise < 3.0 * CLEAR
 
 
 def test_wheels_are_found_with_their_size(mechanism: Mechanism) -> None:

@@ -111,7 +111,7 @@ def _pair(
     out = b - bore.half
     if inside < 1.0 * bore.radius or out < 1.0 * shaft.radius:
         return None
-    through = a < -bore.half - 3 * bore.radius
+    through = a < -bore.half - bore.radius
     low, high = tube.span(bore.center, direction)
     far = max(bar.span(bore.center, direction)[1], b)
     reach = 6 * bore.radius

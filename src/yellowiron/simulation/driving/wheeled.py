@@ -18,6 +18,7 @@ from yellowiron.model.geometry import Floats
 from yellowiron.model.mechanism import Body, Joint, Mechanism
 from yellowiron.simulation.commands import SHARE, Motion, motions, travel
 from yellowiron.simulation.driving import tracked
+from yellowiron.simulation.driving.raised import raised
 from yellowiron.simulation.driving.result import BLOCK_HEIGHT, DISTANCE, DrivingResult
 from yellowiron.simulation.driving.sliding import center_of_mass, least_sliding, standing
 from yellowiron.simulation.driving.turning import turning_centre
@@ -42,9 +43,9 @@ _ROOM = 0.05
 
 
 def drive(usd_path: str | Path, *, engine: str, payload_kg: float = 0.0, dt: float | None = None) -> DrivingResult:
-    """Lets a wheeled machine settle, drive 5 m forward and back, turn at full lock, and climb a 150 mm block with one
-    wheel of its free axle, where it has one. One that steers by its two sides' speeds drives 2 m, turns on the spot by
-    45° and swings by 90°.
+    """Lets a wheeled machine raise what else stands on the ground (jacks, a blade, a bucket), settle, drive 5 m forward
+    and back, turn at full lock, and climb a 150 mm block with one wheel of its free axle, where it has one. One that
+    steers by its two sides' speeds drives 2 m, turns on the spot by 45° and swings by 90°.
 
     Raises `YellowironError` for an unknown engine, one that is not installed, and a machine without driven wheels.
     """
@@ -77,6 +78,7 @@ class _Trip:
         self._root = names.index(self.mechanism.root)
         self._steer = self._steering()
         self._sides = () if self._steer is not None else sides(driven)
+        self._raised = raised(self.mechanism, self.chain, self.wheels)
         self._origin = np.asarray(self.mechanism.body(self.mechanism.root).origin)
 
     def _load(self, *blocks: Block) -> Engine:
@@ -138,6 +140,16 @@ class _Trip:
             engine.step()
         return float(np.linalg.norm(poses(engine)[1][self._root] - before)) / self.timestep
 
+    def _raise(self, engine: Engine) -> None:
+        """Brings up what stands on the ground beside the wheels."""
+        rows = []
+        for motion, target in self._raised.items():
+            pace = paces(self.chain, (motion,))[motion.joint]
+            rows.append((motion.joint, travel(0.0, target, motion.speed, self.timestep, pace)))
+        for number in range(max((len(path) for _, path in rows), default=0)):
+            tell(engine, {joint: float(path[min(number, len(path) - 1)]) for joint, path in rows})
+            engine.step()
+
     def straight(self) -> dict[str, float | None]:
         """Settling, forward, back, and the turn."""
         engine = self._load()
@@ -145,6 +157,7 @@ class _Trip:
         if self._sides and not tracked.on_tyres(self._sides):
             distance, speed = tracked.DISTANCE, top_speed(self.wheels, SPEED)
         try:
+            self._raise(engine)
             creep = self._rest(engine, _SETTLE)
             rest = poses(engine)[1][self._root]
             self._go(engine, distance, speed=speed)
@@ -284,6 +297,7 @@ class _Trip:
         engine = self._load(block)
         record: list[Floats] = []
         try:
+            self._raise(engine)
             self._rest(engine, _SETTLE)
             self._go(engine, middle - float(climbing.middle[0]), speed=0.5 * SPEED, record=record)
             axle = float(coordinates(engine)[self.chain.independent.index(joint.name)])
