@@ -243,6 +243,18 @@ def test_pivots_are_believed_as_far_as_they_are_on_the_hinges_that_are_drawn() -
     assert trust_in_pivots({"unclear": drawn["unclear"]}, beside, 5.0) == usual
 
 
+@pytest.mark.parametrize(("quality", "gives_way"), [(0.4, True), (0.2, False)])
+def test_what_was_found_otherwise_gives_way_to_an_estimate_that_is_more_than_a_guess(
+    quality: float, gives_way: bool
+) -> None:
+    way = np.array([0.0, 1.0, 0.0])
+    found = AxisEstimate("hinge", np.zeros(3), way, 0.001, 0.01, "round part of both bodies", (), quality)
+    assert found.beats((0.5, 0.0, 0.0), tuple(way)) == gives_way
+    # Another line that it could be is left.
+    wide = replace(found, across=0.2)
+    assert not wide.beats((0.5, 0.0, 0.0), tuple(way))
+
+
 def test_an_arm_without_cylinders_turns_about_parallel_axes() -> None:
     """No chain is closed, but the template's would be."""
     template = template_of("excavator", 2)

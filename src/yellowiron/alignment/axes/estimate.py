@@ -73,7 +73,7 @@ def estimate_axes(
     frame = completed(frame or Frame(), linkages, template, bodies, lines)
     lines |= _lines_up(template, bodies, frame)
     found: dict[str, AxisEstimate] = {}
-    planar: list[tuple[Sequence[JointTemplate], Direction, dict[str, list[Candidate]]]] = []
+    planar: list[tuple[tuple[JointTemplate, ...], Direction, dict[str, list[Candidate]]]] = []
     for linkage in (joints for joints, flat in groups if flat):
         way = direction_of(linkage, template, bodies, lines, frame)
         lines |= _lines_with_twins({j.name: lines[j.name] for j in linkage if j.name in lines}, way.vector)
