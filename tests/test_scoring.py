@@ -12,7 +12,7 @@ from kit.machines.damages import EXTRA, base, damaged
 from kit.machines.mixed import one_mesh
 from kit.machines.synthetic import Machine
 from kit.scene import Surface, TrueJoint, occurrences, true_alignment, true_joints
-from kit.scoring import Score, score
+from kit.scoring import Score, _between_twins, score
 from yellowiron.library import load_template
 from yellowiron.mechanism import build_mechanism
 from yellowiron.model.alignment import Alignment, PartAssignment
@@ -154,6 +154,17 @@ def test_a_joint_over_a_third_body_on_its_axis_counts_and_another_pair_does_not(
     assert over.score(joints=[joint]).joints_right == 1
     half = replace(known, mechanism=replace(known.mechanism, joints=(third[0],)))
     assert half.score(joints=[joint]).joints_right == 0
+
+
+def test_twins_are_one_where_they_were_found_as_one_and_not_where_their_feet_may_be_of_the_frame() -> None:
+    left, right = (
+        TrueJoint(f"foot_{s}", "revolute", ("main_frame", f"barrel_{s}"), (0.0, y, 0.0), (0.0, 1.0, 0.0))
+        for s, y in (("l", 1.0), ("r", -1.0))
+    )
+    apart = {"barrel_l": {"barrel_l", "main_frame"}, "barrel_r": {"barrel_r", "main_frame"}}
+    as_one = {"barrel_l": {"barrel"}, "barrel_r": {"barrel"}}
+    assert _between_twins(left, [left, right], apart).point == (0.0, 1.0, 0.0)
+    assert _between_twins(left, [left, right], as_one).point == (0.0, 0.0, 0.0)
 
 
 def test_what_is_no_part_of_the_machine_is_right_outside_it() -> None:

@@ -15,9 +15,9 @@ from kit.machines.excavators import any_features
 from kit.machines.synthetic import Machine
 from yellowiron.alignment.axes import AxisEstimate, Frame, estimate_axes, group, hinge_proposals
 from yellowiron.alignment.axes.outlines import fitted_circle, outline_circles
-from yellowiron.alignment.axes.pivots import pivots_of
+from yellowiron.alignment.axes.pivots import pivots_of, trust_in_pivots
 from yellowiron.alignment.axes.unfound import axis_findings, unfound_axes
-from yellowiron.alignment.axes.values import plane_of
+from yellowiron.alignment.axes.values import Candidate, plane_of
 from yellowiron.alignment.features.solids import Solid, size_of, solids_of
 from yellowiron.cad.mesh import polygons
 from yellowiron.cad.mesh.assembly import Occurrence, assemble, shape_of
@@ -228,6 +228,31 @@ def test_a_pivot_far_from_where_the_bodies_meet_is_not_believed() -> None:
     found = estimate_axes(solids, labels, two_bodies(), frame=left, pivots={"hinge": np.array([[1.9, 0.0, 0.0]])})
     assert "pivot" not in found["hinge"].how
     assert abs(found["hinge"].origin[0] - 1.0) < 0.1
+
+
+def test_pivots_are_believed_as_far_as_they_are_on_the_hinges_that_are_drawn() -> None:
+    def hinge(x: float, quality: float = 0.8) -> list[Candidate]:
+        return [Candidate(np.array([x, 0.0, 0.0]), np.array([0.0, 1.0, 0.0]), 0.001, 0.01, quality, "a pin")]
+
+    drawn = {str(k): hinge(float(k)) for k in range(6)} | {"unclear": hinge(9.0, 0.2)}
+    on_them = {name: c[0].origin[None] + [0.0, 0.5, 0.01] for name, c in drawn.items()}
+    beside = {name: c[0].origin[None] + [0.3, 0.0, 0.0] for name, c in drawn.items()}
+    usual = trust_in_pivots({}, on_them, 5.0)
+    assert trust_in_pivots(drawn, on_them, 5.0) > usual > 0.9
+    assert trust_in_pivots(drawn, beside, 5.0) < 0.15
+    assert trust_in_pivots({"unclear": drawn["unclear"]}, beside, 5.0) == usual
+
+
+@pytest.mark.parametrize(("quality", "gives_way"), [(0.4, True), (0.2, False)])
+def test_what_was_found_otherwise_gives_way_to_an_estimate_that_is_more_than_a_guess(
+    quality: float, gives_way: bool
+) -> None:
+    way = np.array([0.0, 1.0, 0.0])
+    found = AxisEstimate("hinge", np.zeros(3), way, 0.001, 0.01, "round part of both bodies", (), quality)
+    assert found.beats((0.5, 0.0, 0.0), tuple(way)) == gives_way
+    # Another line that it could be is left.
+    wide = replace(found, across=0.2)
+    assert not wide.beats((0.5, 0.0, 0.0), tuple(way))
 
 
 def test_an_arm_without_cylinders_turns_about_parallel_axes() -> None:

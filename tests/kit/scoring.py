@@ -282,7 +282,9 @@ def _lost(
 
 
 def _between_twins(joint: TrueJoint, joints: list[TrueJoint], played: Mapping[str, set[str]]) -> TrueJoint:
-    """A joint of a cylinder that was found as one with its twin, in whose mesh it is drawn: halfway to the twin's."""
+    """A joint of a cylinder that was found as one with its twin, in whose mesh it is drawn: halfway to the twin's. A
+    body that both hang on, and that a label allows their feet to be of, does not make them one."""
+    shared = {b for j in joints for b in j.bodies if not b.endswith(("_l", "_r"))}
     for twin in joints:
         mirrored = [tuple(sorted(re.sub("_[lr]$", "", b) for b in j.bodies)) for j in (joint, twin)]
         if twin is joint or twin.type != joint.type or mirrored[0] != mirrored[1]:
@@ -290,7 +292,7 @@ def _between_twins(joint: TrueJoint, joints: list[TrueJoint], played: Mapping[st
         mine, others = (
             {b for end in j.bodies if end.endswith(("_l", "_r")) for b in played.get(end, set())} for j in (joint, twin)
         )
-        if mine & others:
+        if (mine & others) - shared:
             return replace(joint, point=tuple((0.5 * (np.array(joint.point) + np.array(twin.point))).tolist()))
     return joint
 

@@ -21,6 +21,7 @@ from yellowiron.alignment.axes.directions import (
 )
 from yellowiron.alignment.axes.hinges import AT_PIVOT, Clues, bars_between, eye_of, hinge_candidates
 from yellowiron.alignment.axes.levers import with_levers
+from yellowiron.alignment.axes.pivots import trust_in_pivots
 from yellowiron.alignment.axes.turning import slewing_candidate, wheel_candidate
 from yellowiron.alignment.axes.values import AxisEstimate, Candidate, Frame, Line
 from yellowiron.alignment.features.solids import Solid, size_of
@@ -72,21 +73,27 @@ def estimate_axes(
     frame = completed(frame or Frame(), linkages, template, bodies, lines)
     lines |= _lines_up(template, bodies, frame)
     found: dict[str, AxisEstimate] = {}
-    for linkage, planar in groups:
-        if not planar:
-            (joint,) = linkage
-            if joint.type == "revolute":
-                found[joint.name] = _single(joint, template, bodies, frame, pivots or {}, loose)
-            continue
+    planar: list[tuple[tuple[JointTemplate, ...], Direction, dict[str, list[Candidate]]]] = []
+    for linkage in (joints for joints, flat in groups if flat):
         way = direction_of(linkage, template, bodies, lines, frame)
         lines |= _lines_with_twins({j.name: lines[j.name] for j in linkage if j.name in lines}, way.vector)
         turning = [j for j in linkage if j.type == "revolute"]
-        hinges = {j.name: _hinge(j, template, bodies, way, linkage, lines, None, loose) for j in turning}
-        left = _left_pivots(turning, hinges, pivots or {}, template, size)
-        hinges |= {
-            j.name: _hinge(j, template, bodies, way, linkage, lines, left[j.name], loose)
+        drawn = {j.name: _hinge(j, template, bodies, way, linkage, lines, Clues(), loose) for j in turning}
+        planar.append((linkage, way, drawn))
+    pivots = pivots or {}
+    trust = trust_in_pivots({n: c for _, _, drawn in planar for n, c in drawn.items()}, pivots, size)
+    for (joint,) in (joints for joints, flat in groups if not flat):
+        if joint.type == "revolute":
+            found[joint.name] = _single(joint, template, bodies, frame, pivots, trust, loose)
+    for linkage, way, hinges in planar:
+        turning = [j for j in linkage if j.type == "revolute"]
+        left = _left_pivots(turning, hinges, pivots, template, size)
+        told = {n: Clues(pivots=points, trust=trust) for n, points in left.items()}
+        hinges = {
+            j.name: _hinge(j, template, bodies, way, linkage, lines, told[j.name], loose)
+            if j.name in told
+            else hinges[j.name]
             for j in turning
-            if j.name in left
         }
         if not is_upright(linkage, template):
             hinges = _with_twins(hinges)
@@ -97,7 +104,8 @@ def estimate_axes(
     for joint in template.joints:
         pair = template.bodies_of(joint)
         if joint.type == "spherical" and None not in pair and len(set(pair)) == 2 and set(pair) <= bodies.keys():
-            found[joint.name] = _ball(joint, template, bodies, frame, lines, (pivots or {}).get(joint.name), loose)
+            clues = Clues(pivots=pivots.get(joint.name), trust=trust)
+            found[joint.name] = _ball(joint, template, bodies, frame, lines, clues, loose)
     return {j.name: found[j.name] for j in template.joints if j.name in found}
 
 
@@ -144,7 +152,7 @@ def _lines_up(template: Template, bodies: Mapping[str, Body], frame: Frame) -> d
 
 def _single(
     joint: JointTemplate, template: Template, bodies: Mapping[str, Body], frame: Frame, pivots: Mapping[str, Floats],
-    loose: Sequence[Body],
+    trust: float, loose: Sequence[Body],
 ) -> AxisEstimate:  # fmt: skip
     """The axis of a hinge in no loop: a wheel's, a slewing bearing's, or any other."""
     kinds = {r.name: r.kind for r in template.roles}
@@ -153,7 +161,8 @@ def _single(
     if wheel is not None:
         return _estimate(joint.name, [wheel_candidate(bodies[wheel], frame)])
     if is_upright([joint], template):
-        return _estimate(joint.name, [slewing_candidate(bodies[a], bodies[b], frame, pivots.get(joint.name))])
+        slewing = pivots.get(joint.name) if trust > 0.5 else None
+        return _estimate(joint.name, [slewing_candidate(bodies[a], bodies[b], frame, slewing)])
     ways = [w for w in (frame.left, frame.forward, frame.up) if w is not None]
     if joint.free and frame.up is not None:
         # What swings freely in no loop is an axle: it rolls, along the machine, across its wheels.
@@ -166,7 +175,7 @@ def _single(
     for way in ways:
         exact = direction_of([joint], template, bodies, {}, Frame(left=way, up=way))
         bars = bars_between(bodies[a], bodies[b], _others(bodies, (a, b), loose), exact.vector)
-        clues = Clues(pivots=pivots.get(joint.name), bars=bars)
+        clues = Clues(pivots=pivots.get(joint.name), trust=trust, bars=bars)
         tried += hinge_candidates(bodies[a], bodies[b], exact.vector, clues, lean=exact.angle)
     tried.sort(key=lambda c: -round(c.quality, 9))
     return _estimate(joint.name, tried)
@@ -174,7 +183,7 @@ def _single(
 
 def _ball(
     joint: JointTemplate, template: Template, bodies: Mapping[str, Body], frame: Frame, lines: Mapping[str, Line],
-    pivots: Floats | None, loose: Sequence[Body],
+    clues: Clues, loose: Sequence[Body],
 ) -> AxisEstimate:  # fmt: skip
     """The middle of a ball, and the pin that may be drawn in its stead: of a cylinder's end on the cylinder's line."""
     pair = set(template.bodies_of(joint))
@@ -194,7 +203,7 @@ def _ball(
     tried: list[Candidate] = []
     for way in given:
         exact = Direction(way, math.radians(_LEANING), "the machine's frame")
-        tried += _hinge(joint, template, bodies, exact, (*slides[:1], joint), lines, pivots, loose)
+        tried += _hinge(joint, template, bodies, exact, (*slides[:1], joint), lines, clues, loose)
     tried.sort(key=lambda c: -round(c.quality, 9))
     if line is not None:
         tried = [replace(c, origin=_nearest(line, c)) for c in tried]
@@ -214,12 +223,11 @@ def _others(bodies: Mapping[str, Body], pair: tuple[str, str], loose: Sequence[B
 
 def _hinge(
     joint: JointTemplate, template: Template, bodies: Mapping[str, Body], way: Direction,
-    linkage: Sequence[JointTemplate], lines: Mapping[str, Line], pivots: Floats | None, loose: Sequence[Body],
+    linkage: Sequence[JointTemplate], lines: Mapping[str, Line], clues: Clues, loose: Sequence[Body],
 ) -> list[Candidate]:  # fmt: skip
-    """Where a hinge of a linkage may be."""
+    """Where a hinge of a linkage may be; `clues`: what is known of it besides what is drawn."""
     kinds = {r.name: r.kind for r in template.roles}
     a, b = (str(name) for name in template.bodies_of(joint))
-    clues = Clues()
     for name, other in ((a, b), (b, a)):
         if kinds[name] not in ("barrel", "rod"):
             continue
@@ -230,10 +238,11 @@ def _hinge(
         # With the rest of the cylinder: an eye may be drawn in one mesh with the other half.
         halves = [bodies[str(n)] for n in template.bodies_of(slide)]
         ahead = 1.0 if kinds[name] == "rod" else -1.0
-        clues = Clues(line, *eye_of(line, bodies[name], halves, bodies[other], way.vector, ahead))
+        eye, room = eye_of(line, bodies[name], halves, bodies[other], way.vector, ahead)
+        clues = replace(clues, line=line, eye=eye, room=room)
         break
     bars = bars_between(bodies[a], bodies[b], _others(bodies, (a, b), loose), way.vector)
-    clues = replace(clues, pivots=pivots, bars=bars)
+    clues = replace(clues, bars=bars)
     return hinge_candidates(bodies[a], bodies[b], way.vector, clues, lean=way.angle)
 
 

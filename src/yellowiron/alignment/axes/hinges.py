@@ -61,12 +61,14 @@ class Meeting:
 class Clues:
     """What else is known of a hinge: the `line` of the hydraulic cylinder that one of its bodies is of, with where on
     it its eye should be (`eye`, a coordinate along the line) and how well that is known (`room`, metres); `pivots`
-    (n, 3) of either body's scene nodes; round things of other parts that may be its pin (`bars`)."""
+    (n, 3) of either body's scene nodes, and how much of this machine's pivots is to be believed (`trust`, 0 to 1);
+    round things of other parts that may be its pin (`bars`)."""
 
     line: Line | None = None
     eye: float = 0.0
     room: float = 0.0
     pivots: Floats | None = None
+    trust: float = 1.0
     bars: tuple[Round, ...] = ()
 
 
@@ -115,7 +117,7 @@ def _spots(
     box = meeting.box(AROUND * a.size)
     rounds = [(side, r) for side, body in enumerate((a, b)) for r in body.rounds(direction, box=box)]
     rounds += [(2, r) for r in clues.bars]
-    at_pivots = _pivot_spots(a, b, plane, meeting, clues)
+    at_pivots = [p for p in _pivot_spots(a, b, plane, meeting, clues) if p.score > guess.quality]
     if not rounds:
         return at_pivots
     center = np.array([plane @ r.face.center for _, r in rounds])
@@ -172,7 +174,7 @@ def _spots(
     score *= np.maximum(_on_line(center, direction, plane, clues, a.size), drawn)
     away = np.linalg.norm(center - plane @ guess.origin, axis=1)
     score *= 0.5 + 0.5 * np.exp(-0.5 * (away / (2.0 * guess.across)) ** 2)
-    score += PIVOT_QUALITY * _at_pivots(center, plane, clues, a.size)
+    score += PIVOT_QUALITY * clues.trust * _at_pivots(center, plane, clues, a.size)
     order = np.lexsort((np.arange(len(score)), -np.round(score, 9)))
     spots: list[Spot] = []
     for k in order:
@@ -194,7 +196,7 @@ def _pivot_spots(a: Body, b: Body, plane: Floats, meeting: Meeting, clues: Clues
     flat = clues.pivots @ plane.T
     beyond = np.max([np.asarray(cKDTree(body.samples @ plane.T).query(flat)[0]) for body in (a, b)], axis=0)
     away = cKDTree(meeting.points @ plane.T).query(flat)[0]
-    score = PIVOT_QUALITY * np.exp(-((beyond / (0.5 * NEAR * a.size)) ** 2))
+    score = PIVOT_QUALITY * clues.trust * np.exp(-((beyond / (0.5 * NEAR * a.size)) ** 2))
     score *= 0.5 + 0.5 * np.exp(-((away / (2.0 * NEAR * a.size)) ** 2))
     order = np.argsort(-np.round(score, 9), kind="stable")
     return [Spot(flat[k], float(score[k]), (), 0) for k in order if score[k] > LEAST_QUALITY]

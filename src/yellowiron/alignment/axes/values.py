@@ -12,8 +12,9 @@ from yellowiron.alignment.features.solids import Cyl
 from yellowiron.model.geometry import Floats
 from yellowiron.support.vectors import angle_between_lines, distance_from_line
 
-SURE_QUALITY = 0.5
-"""What an axis is more than a guess from."""
+SURE_QUALITY = 0.35
+"""What an axis is more than a guess from: with 0.35 to 0.5, 19 of 22 of eighteen models of strangers were right, and
+the others known to 7 % of the height and worse; with 0.1 to 0.2, 3 of 12."""
 RIVAL_QUALITY = 1.5
 """So many times as much must speak for a line as for another before it goes before what was found otherwise."""
 
