@@ -152,9 +152,8 @@ def from_sheets(
         reading, more = _by_model(ask, model, alone=extractor == "llm")
         matches = match(claims, direct) if reading.seen else {}
         for one in open_:
-            heard = Asked(
-                one, direct, matches.get(one.name, []), nearby.get(one.name), known, config, model.model if model else ""
-            )
+            own, second = matches.get(one.name, []), nearby.get(one.name)
+            heard = Asked(one, direct, own, second, known, config, model.model if model else "")
             seen = reading.seen.get(one.name, [])
             values[one.name] = agreed(heard, values[one.name], reading.found.get(one.name, []), seen)
         findings += more

@@ -2,8 +2,8 @@
 
 `truthful` knows what a person read on the page; the others (`LIARS`) know that too, and say something else: other
 numbers of the page under the right label, words that stand elsewhere, cells and numbers that there are not, other
-columns and rows, what the page prints of another wanted value, and the label that comes nearest to the name with a value
-that is not the name's.
+columns and rows, what the page prints of another wanted value, and the label that comes nearest to the name with a
+value that is not the name's.
 """
 
 from __future__ import annotations
@@ -33,7 +33,9 @@ Truths = Mapping[str, str]
 """Wanted name → the value as printed, with its unit ("4.6 m")."""
 Entry = dict[str, Any]
 Model = Callable[["Question"], list[Entry]]
-_COUNTS = {word: number for number, word in enumerate("two three four five six seven eight".split(), start=2)}
+_COUNTS = {
+    word: number for number, word in enumerate(["two", "three", "four", "five", "six", "seven", "eight"], start=2)
+}
 _UNITS = {**BARE_UNITS, "angle": ("°",), "time": ("s",), "count": ("",), "angular_speed": ("rpm",)}
 
 

@@ -27,6 +27,7 @@ from yellowiron.specs.values.stated_configuration import Stated
 from yellowiron.specs.values.tolerances import DOUBTFUL, SURE
 from yellowiron.support.units import SI_UNIT
 
+
 @dataclass(frozen=True)
 class Asked:
     """What two readers are heard on: a wanted value among `every` one, how the rules' claims speak of it and what their

@@ -70,7 +70,7 @@ class Place:
 
 @dataclass(frozen=True)
 class Spot:
-    """Where a number that is pointed to stands, whatever its label: sheet, page, the cell's box; `words`: the reason."""
+    """Where a number that is pointed to stands, whatever its label: sheet, page, the cell's box; `words`: why."""
 
     sheet: int
     page: int
