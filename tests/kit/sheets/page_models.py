@@ -182,7 +182,11 @@ def entry(question: Question, asked: Asked, pair: Pair, **other: Any) -> Entry:
     }  # fmt: skip
     if pair.label is pair.cell:
         before = pair.cell.text[: pair.cell.text.index(pair.number)]
-        said["words"] = " ".join(re.findall(r"[^\W\d_]{2,}", before)[-2:])
+        behind = pair.cell.text[pair.cell.text.index(pair.number) :]
+        named = re.findall(r"[^\W\d_]{3,}", before)[-2:] or re.findall(r"[^\W\d_]{3,}", behind)[1:2]
+        said["words"] = " ".join(
+            re.findall(r"[^\W\d_]{2,}", before)[-2:] if pair.number.casefold() not in _COUNTS else named
+        )
     return {**said, **other}
 
 

@@ -15,6 +15,7 @@ from dataclasses import dataclass, replace
 from yellowiron.model.specification import Specification
 from yellowiron.model.template import Wanted
 from yellowiron.specs.language.vocabulary import HARMLESS, KNOWN, NEUTRAL, TELLING, tokens
+from yellowiron.specs.layout.nearest import COUNTS
 from yellowiron.specs.llm.pointing import Spot
 from yellowiron.specs.values.claims import COUNTED_TOGETHER, PRINTED_FOR_A_FORCE
 from yellowiron.specs.values.cross_check import Nearby
@@ -62,6 +63,7 @@ def reads_same(value: Specification, files: Sequence[str], spot: Spot) -> bool:
     a, b = seen.box, spot.box
     there = a[0] < b[2] and b[0] < a[2] and a[1] < b[3] and b[1] < a[3]
     number, text = spot.number.casefold(), value.text.casefold()
+    number = COUNTS.get(number, number)
     words = re.findall(r"[^\W\d_]+", spot.words.casefold())
     quote = seen.quote.casefold()
     return there and (number in text or text in number) and bool(words) and all(word in quote for word in words)
@@ -135,11 +137,12 @@ def _is_named(doubted: Doubted, nearby: Nearby) -> bool:
         above = {t for text in (*statement.context, statement.section, *statement.column) for t in tokens(text)}
         counted = doubted.wanted.dimension == "count" and set(tokens(doubted.wanted.name)) <= said | above
         return counted and _UNDER_WHICH.search(begin) is None
+    if not statement.unit and not re.search(r"[^\W\d]", found.claim.quantity.text):
+        return False  # its unit is what would be usual, and not printed there
     left = said - set(tokens(found.phrase)) - HARMLESS - NEUTRAL
     if nearby.side == "cell":
         telling = (said & set(tokens(found.phrase))) - _EXTENT
-        printed = statement.unit or re.search(r"[^\W\d]", found.claim.quantity.text)
-        return bool(printed and telling) and not left & (KNOWN | TELLING)
+        return bool(telling) and not left & (KNOWN | TELLING)
     named = [set(tokens(p)) for p in (found.phrase, doubted.wanted.name)]
     whole = [own for own in named if own <= said and (len(own) > 1 or own == set(tokens(doubted.wanted.name)))]
     return bool(whole) and not left & TELLING

@@ -84,7 +84,9 @@ def spot_of(said: Mapping[str, object], text: PageText) -> Spot | None:
     cell, number = _number(said["value_cell"]), str(said["value"]).strip()
     if not 1 <= cell <= len(text.cells) or not re.search(r"\w", number):
         return None
-    value = text.cells[cell - 1]
+    value, unit = text.cells[cell - 1], _number(said["unit_cell"])
+    if unit and not (unit <= len(text.cells) and is_unit(text.cells[unit - 1].bare.split()[0])):
+        return None  # what is pointed to as its unit is none
     if not re.search(rf"(?<![\w.,]){re.escape(number)}(?!\w*\d|[.,]\d)", value.text, re.IGNORECASE):
         return None
     return Spot(text.sheet, text.page, value.box, number, str(said["words"]))
