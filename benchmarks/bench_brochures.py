@@ -148,10 +148,11 @@ def with_model(
     """A reading with a played model: with the right one beside the rules what became of what they left open; with the
     lying ones nothing but what is wrong."""
     known = {name: str(one["value"]).split(" / ")[0] for name, one in truth.items() if "value" in one}
+    pages = {name: int(str(one["page"])) for name, one in truth.items()}
     options = ModelOptions("played", "http://localhost", most_calls=10**6)
     alone = from_sheets(template, [sheet], config=config)
     if kind == "right":
-        with at_hand(truthful(known)):
+        with at_hand(truthful(known, pages)):
             found = from_sheets(template, [sheet], config=config, extractor="both", model=options)
         tally = judge(where, truth, found, config)
         for name, printed in known.items():
@@ -171,7 +172,8 @@ def with_model(
         and (value := first(one)) is not None
         and not near(str(truth.get(one.name, {}).get("value", "0 m")), value)
     }
-    lies = {**LIARS, "yes to the rules": lambda _: truthful(slips)}
+    seen = {one.name: one.evidence.page for one in alone if one.evidence is not None}
+    lies = {**LIARS, "yes to the rules": lambda _: truthful(slips, seen)}
     for name, liar in lies.items():
         for extractor in ("both", "llm"):
             with at_hand(liar(known)):

@@ -132,7 +132,7 @@ def from_sheets(
     claimed, known = _claimed(sheets, config), _known(sheets)
     style = sheets[0].style if sheets else "point"
     values = _by_rules(wanted, claimed.printed, known, config, style)
-    values = second_reading(wanted, values, claimed.near, known, config)
+    values, nearby = second_reading(wanted, values, claimed.near, known, config)
     # Words read from a picture have a say only where no text has, another program's only where those have none.
     values |= _of_words_recognised(wanted, values, claimed, known, config, style)
     values = _of_pictures(wanted, values, sheets)
@@ -150,10 +150,12 @@ def from_sheets(
         pages = [(text, sheets[text.sheet].style) for text in pages_of([s.cells for s in sheets])]
         ask = functools.partial(read_pages, open_, direct, pages, claims, config=config, progress=progress)
         reading, more = _by_model(ask, model, alone=extractor == "llm")
-        matches = match(claims, direct) if reading.found else {}
+        matches = match(claims, direct) if reading.seen else {}
         for one in open_:
-            heard = Asked(one, matches.get(one.name, []), known, config, model.model if model else "")
-            values[one.name] = agreed(heard, values[one.name], reading.found.get(one.name, []))
+            own, second = matches.get(one.name, []), nearby.get(one.name)
+            heard = Asked(one, direct, own, second, known, config, model.model if model else "")
+            seen = reading.seen.get(one.name, [])
+            values[one.name] = agreed(heard, values[one.name], reading.found.get(one.name, []), seen)
         findings += more
     values = _of_pictures(wanted, values, sheets)
     return Specifications(values if config else _of_several(values, sheets), tuple(findings))
@@ -171,7 +173,7 @@ def _of_words_recognised(
     if not claimed.recognised and not any(near for near, _ in claimed.near_recognised):
         return {}
     found = _by_rules(wanted, claimed.recognised, known, config, style)
-    found = second_reading(wanted, found, claimed.near_recognised, known, config)
+    found, _ = second_reading(wanted, found, claimed.near_recognised, known, config)
     return {name: one for name, one in found.items() if values[name].status in ("missing", "unreadable")}
 
 

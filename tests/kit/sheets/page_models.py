@@ -2,13 +2,15 @@
 
 `truthful` knows what a person read on the page; the others (`LIARS`) know that too, and say something else: other
 numbers of the page under the right label, words that stand elsewhere, cells and numbers that there are not, other
-columns, and the label that comes nearest to the name with a value that is not the name's.
+columns and rows, what the page prints of another wanted value, and the label that comes nearest to the name with a
+value that is not the name's.
 """
 
 from __future__ import annotations
 
 import functools
 import json
+import os
 import random
 import re
 import zlib
@@ -25,12 +27,15 @@ from yellowiron.specs.language.numbers import read
 from yellowiron.specs.language.vocabulary import tokens
 from yellowiron.specs.layout.statement import is_unit
 from yellowiron.specs.values.claims import BARE_UNITS
-from yellowiron.support.units import parse_quantity
+from yellowiron.support.units import SI_UNIT, parse_quantity
 
 Truths = Mapping[str, str]
 """Wanted name → the value as printed, with its unit ("4.6 m")."""
 Entry = dict[str, Any]
 Model = Callable[["Question"], list[Entry]]
+_COUNTS = {
+    word: number for number, word in enumerate(["two", "three", "four", "five", "six", "seven", "eight"], start=2)
+}
 _UNITS = {**BARE_UNITS, "angle": ("°",), "time": ("s",), "count": ("",), "angular_speed": ("rpm",)}
 
 
@@ -47,7 +52,8 @@ class Shown:
 
     @property
     def is_text(self) -> bool:
-        return not re.match(r"[^\w]*\d", self.text) and bool(re.search(r"[^\W\d_]{3,}", self.text))
+        words = re.sub(r"^\W*\d[\d.,]*(?:st|nd|rd|th)?\s+(?=[^\W\d_]{4})", "", self.text)  # "3.0 Forward", "4th gear"
+        return not re.match(r"[^\w]*\d", words) and bool(re.search(r"[^\W\d_]{3,}", words))
 
 
 @dataclass(frozen=True)
@@ -76,6 +82,10 @@ class Question:
             if abs(c.y - cell.y) < 8 and c.x1 <= cell.x0 + 1 and c.is_text and not re.search(r"\d\s?m?m\b", c.text)
         ]
         return max(row, key=lambda c: (c.x1, -abs(c.y - cell.y))) if row else None
+
+    def row_before(self, cell: Shown) -> list[Shown]:
+        """All words to the left of a cell on its row."""
+        return [c for c in self.cells if abs(c.y - cell.y) < 8 and c.x1 <= cell.x0 + 1 and c.is_text]
 
     def above(self, cell: Shown, most: float = 1e9) -> list[Shown]:
         found = [c for c in self.cells if 2 < cell.y - c.y < most and c.x0 < cell.x1 and cell.x0 < c.x1]
@@ -114,10 +124,13 @@ class Pair:
 
 def pairs(question: Question, asked: Asked) -> list[Pair]:
     """The numbers of a dimension on the page, each with the words before, beside, above and below it."""
-    return [
-        replace(p, share=len(asked.words & words) / max(len(words), 1))
-        for p, words in _pairs(question.cells, asked.dimension)
-    ]
+    return list(_shared(question.cells, asked))
+
+
+@functools.lru_cache(maxsize=4096)
+def _shared(cells: tuple[Shown, ...], asked: Asked) -> tuple[Pair, ...]:
+    said = _pairs(cells, asked.dimension)
+    return tuple(replace(p, share=len(asked.words & words) / max(len(words), 1)) for p, words in said)
 
 
 @functools.lru_cache(maxsize=64)
@@ -125,10 +138,16 @@ def _pairs(cells: tuple[Shown, ...], dimension: str) -> tuple[tuple[Pair, frozen
     page = Question(0, cells, (), "", "")
     found: dict[tuple[int, str, float, int], tuple[Pair, frozenset[str]]] = {}
     for cell in cells:
+        if dimension == "count" and (word := re.search(rf"\b({'|'.join(_COUNTS)})\b", cell.text, re.IGNORECASE)):
+            pair = Pair(cell, word[0], float(_COUNTS[word[0].lower()]), cell, 0.0)
+            found[cell.number, word[0], pair.value, cell.number] = pair, frozenset(tokens(cell.text))
         if not any(c.isdigit() for c in cell.text):
             continue
         labels = [c for c in (page.left_of(cell), *page.above(cell, 25)[:1]) if c is not None and c.is_text]
+        labels += [c for c in page.row_before(cell) if c not in labels]
+        labels += [c for c in page.above(cell, 90) if c.is_text and c not in labels][:1]
         labels += [c for c in cells if 2 < c.y - cell.y < 20 and c.x0 < cell.x1 and cell.x0 < c.x1 and c.is_text]
+        labels = [c for c in labels if not is_unit(c.text)]
         for unit in _UNITS.get(dimension, ("",)):
             for reading in read(cell.text, unit=unit):
                 for quantity in (*reading.numbers, *reading.partner):
@@ -163,7 +182,11 @@ def entry(question: Question, asked: Asked, pair: Pair, **other: Any) -> Entry:
     }  # fmt: skip
     if pair.label is pair.cell:
         before = pair.cell.text[: pair.cell.text.index(pair.number)]
-        said["words"] = " ".join(re.findall(r"[^\W\d_]{2,}", before)[-2:])
+        behind = pair.cell.text[pair.cell.text.index(pair.number) :]
+        named = re.findall(r"[^\W\d_]{3,}", before)[-2:] or re.findall(r"[^\W\d_]{3,}", behind)[1:2]
+        said["words"] = " ".join(
+            re.findall(r"[^\W\d_]{2,}", before)[-2:] if pair.number.casefold() not in _COUNTS else named
+        )
     return {**said, **other}
 
 
@@ -176,12 +199,14 @@ def _configured(question: Question, pair: Pair) -> bool:
     return bool(question.config) and any(c.text == question.config for c in question.above(pair.cell))
 
 
-def truthful(truths: Truths) -> Model:
-    """Says where the page prints what a person read there, and nothing else."""
+def truthful(truths: Truths, pages: Mapping[str, int] | None = None) -> Model:
+    """Says where the page prints what a person read there, and nothing else; `pages`: on which page it was."""
 
     def answer(question: Question) -> list[Entry]:
         found = []
         for asked in question.wanted:
+            if pages and pages.get(asked.name, question.page) != question.page:
+                continue
             right = [p for p in pairs(question, asked) if asked.name in truths and _is(truths[asked.name], p.value)]
             if right:
                 best = max(right, key=lambda p: (_configured(question, p), p.share))
@@ -252,6 +277,33 @@ def _wrong_column(question: Question, asked: Asked, found: list[Pair], truths: T
     return entry(question, asked, other, label_cells=[best.label.number], column_cell=heads[0] if heads else 0)
 
 
+def _other_row(question: Question, asked: Asked, found: list[Pair], truths: Truths) -> Entry | None:
+    """The right label, and the number right over or under its own."""
+    right = [p for p in found if asked.name in truths and _is(truths[asked.name], p.value)]
+    best = max(right, key=lambda p: p.share, default=None)
+    near = [
+        p
+        for p in _false(asked, found, truths)
+        if best and p.cell.x0 < best.cell.x1 and best.cell.x0 < p.cell.x1 and 0 < abs(p.cell.y - best.cell.y) < 40
+    ]
+    if best is None or not near:
+        return None
+    words = " ".join(re.findall(r"[^\W\d_]{2,}", best.label.text)[-3:])
+    other = min(near, key=lambda p: abs(p.cell.y - best.cell.y))
+    return entry(question, asked, other, label_cells=[best.label.number], words=words)
+
+
+def _others_value(question: Question, asked: Asked, found: list[Pair], truths: Truths) -> Entry | None:
+    """What the page prints of another wanted value, with that one's label, under the name asked for."""
+    others = [text for name, text in sorted(truths.items()) if name != asked.name]
+    wrong = [p for p in _false(asked, found, truths) if any(_is_so_much(text, p.value, asked) for text in others)]
+    return entry(question, asked, max(wrong, key=lambda p: p.share)) if wrong else None
+
+
+def _is_so_much(printed: str, value: float, asked: Asked) -> bool:
+    return parse_quantity(printed, where=printed)[1] == SI_UNIT.get(asked.dimension) and _is(printed, value)
+
+
 def _near_miss(question: Question, asked: Asked, found: list[Pair], truths: Truths) -> Entry | None:
     """The label that says most of the name, of those whose value is not the name's."""
     wrong = _false(asked, found, truths)
@@ -263,6 +315,8 @@ LIARS: Mapping[str, Callable[[Truths], Model]] = {
     "borrowed words": _lying(_borrowed),
     "invented": _lying(_invented),
     "wrong columns": _lying(_wrong_column),
+    "wrong rows": _lying(_other_row),
+    "another's value": _lying(_others_value),
     "near misses": _lying(_near_miss),
 }
 
@@ -278,7 +332,8 @@ def completion(text: str) -> dict[str, Any]:
 
 @contextmanager
 def at_hand(model: Model) -> Iterator[list[Question]]:
-    """The model answers in this process, without a server; what was asked."""
+    """The model answers in this process, without a server; what was asked. Nothing is kept on disk: the next model
+    would be given this one's answers."""
     asked: list[Question] = []
 
     def answered(self: Endpoint, messages: Any, schema: Any, rung: str) -> ChatCompletion:
@@ -286,7 +341,7 @@ def at_hand(model: Model) -> Iterator[list[Question]]:
         asked.append(question_of(text))
         return ChatCompletion.model_validate(completion(json.dumps({"values": model(asked[-1])})))
 
-    with mock.patch.object(Endpoint, "_completion", answered):
+    with mock.patch.object(Endpoint, "_completion", answered), mock.patch.dict(os.environ, YELLOWIRON_CACHE="off"):
         yield asked
 
 

@@ -38,8 +38,8 @@ _ITEM = re.compile(
     r"(?<!\S)([A-ZÀ-Ý][^:：\d;|]{3,50})[:：]\s*((?:[<>±Øø]\s*)*\d[^:：;|]*?)[.;|]?(?=\s+[A-ZÀ-Ý][^:：\d;|]{3,50}[:：]|$)"
 )
 """A name and its value among others in a line: "Type: Planetary Ratio: 23.68:1 Rear oscillation: ± 12°"."""
-_COUNTS = {word: str(2 + n) for n, word in enumerate("two three four five six seven eight nine ten".split())}  # noqa: SIM905
-_COUNTED = re.compile(rf"(?<![\w.,-])({'|'.join(_COUNTS)}|\d)[-–\s]([a-z]{{4,}})(?!\w)([^\d,;.:()]*)", re.IGNORECASE)
+COUNTS = {word: str(2 + n) for n, word in enumerate("two three four five six seven eight nine ten".split())}  # noqa: SIM905
+_COUNTED = re.compile(rf"(?<![\w.,-])({'|'.join(COUNTS)}|\d)[-–\s]([a-z]{{4,}})(?!\w)([^\d,;.:()]*)", re.IGNORECASE)
 _BRAND = re.compile(r"\S*[A-Z]{3}\S*")
 """How many parts a thing has, as an adjective: "four-section full power boom", "4 section"; a plural counts others."""
 _CLOSE = 1.3
@@ -128,7 +128,7 @@ def _within(page: int, row: int, piece: TextPiece, heading: str) -> Iterator[Nea
     for match in _COUNTED.finditer(piece.bare):
         if not match.group(2).endswith("s"):
             count, label = match.group(1).casefold(), f"{match.group(2)}{_BRAND.sub('', match.group(3))}"
-            yield Near("behind", replace(said, label=label, text=_COUNTS.get(count, count)))
+            yield Near("behind", replace(said, label=label, text=COUNTS.get(count, count)))
     inline = split_inline(piece.bare)
     for label, text in [match.groups() for match in _ITEM.finditer(piece.bare)] or [inline] * bool(inline[0]):
         yield Near("item", replace(said, label=label, text=text))

@@ -13,34 +13,46 @@ from dataclasses import dataclass, replace
 
 from yellowiron.model.specification import Candidate, Specification
 from yellowiron.model.template import Wanted
+from yellowiron.specs.language.numbers import read
 from yellowiron.specs.language.vocabulary import tokens
-from yellowiron.specs.llm.page_reader import Pointed, says_in_full
-from yellowiron.specs.values.claims import COUNTED_TOGETHER, configured_by
+from yellowiron.specs.llm.doubts import Doubted, alike, is_answered, reads_same
+from yellowiron.specs.llm.page_reader import Pointed
+from yellowiron.specs.llm.pointing import Spot
+from yellowiron.specs.values.claims import configured_by
+from yellowiron.specs.values.cross_check import Nearby
 from yellowiron.specs.values.decision import Sheets, decide, evidence_of, missing, printed, settled
 from yellowiron.specs.values.matching import Match
-from yellowiron.specs.values.requested import check_hint, hint_for, usual
+from yellowiron.specs.values.requested import check_hint, hint_for
 from yellowiron.specs.values.stated_configuration import Stated
 from yellowiron.specs.values.tolerances import DOUBTFUL, SURE
 from yellowiron.support.units import SI_UNIT
 
-_EQUAL = 1e-6
-"""Relative difference of two readings of the same printed number."""
-
 
 @dataclass(frozen=True)
 class Asked:
-    """What two readers are heard on: a wanted value, how the rules' claims speak of it, the sheets and the
-    configuration that is meant, the model's name."""
+    """What two readers are heard on: a wanted value among `every` one, how the rules' claims speak of it and what their
+    second reading brought, the sheets and the configuration that is meant, the model's name."""
 
     wanted: Wanted
+    every: Sequence[Wanted]
     matches: Sequence[Match]
+    nearby: Nearby | None
     sheets: Sheets
     config: str
     model: str
 
 
-def agreed(asked: Asked, by_rules: Specification, pointed: Sequence[Pointed]) -> Specification:
-    """The specification that both readers' words make."""
+def agreed(
+    asked: Asked, by_rules: Specification, pointed: Sequence[Pointed], seen: Sequence[Spot] = ()
+) -> Specification:
+    """The specification that both readers' words make. `seen`: where the model's numbers stand, also those that its own
+    label does not bear out."""
+    doubted = Doubted(asked.wanted, asked.every, asked.matches, asked.nearby)
+    others = [p for p in pointed if p.sure and not alike(_value(asked, p), by_rules.value or 0.0)]
+    there = any(reads_same(by_rules, asked.sheets.files, spot) for spot in seen)
+    if there and not others and is_answered(doubted, by_rules):
+        said = f"rules and {asked.model} read the same beside '{by_rules.evidence.quote if by_rules.evidence else ''}'"
+        return replace(by_rules, status="ok", confidence=SURE, reason=said, hint="")
     if not pointed:
         return by_rules
     if by_rules.value is None and not by_rules.candidates:
@@ -48,9 +60,9 @@ def agreed(asked: Asked, by_rules: Specification, pointed: Sequence[Pointed]) ->
     own = _brought(asked, pointed)
     if by_rules.value is None:
         return _out_of_conflict(asked, by_rules, pointed)
-    if own.value is None or not _same(by_rules.value, own.value):
+    if own.value is None or not alike(by_rules.value, own.value):
         return _conflict(asked.wanted, by_rules, own)
-    if any(p.sure for p in pointed) or any(_settles(asked, m, by_rules.value) for m in asked.matches):
+    if any(p.sure for p in pointed) or is_answered(doubted, by_rules):
         return replace(by_rules, status="ok", confidence=SURE, reason=_both(asked, pointed[0]), hint="")
     return replace(by_rules, reason=f"{by_rules.reason}; {asked.model} reads the same")
 
@@ -63,7 +75,7 @@ def _brought(asked: Asked, pointed: Sequence[Pointed]) -> Specification:
     candidates: list[Candidate] = []
     for one in sorted(pointed, key=lambda p: p is not first):
         quantity, doubt = settled(wanted, one.match.claim)
-        if not any(_same(quantity.si_value, c.value) for c in candidates):
+        if not any(alike(quantity.si_value, c.value) for c in candidates):
             candidates.append(
                 Candidate(
                     value=quantity.si_value,
@@ -74,7 +86,7 @@ def _brought(asked: Asked, pointed: Sequence[Pointed]) -> Specification:
                     reason=doubt or f"{asked.model} points to it",
                 )
             )
-    others = [m for m in asked.matches if not _same(settled(wanted, m.claim)[0].si_value, candidates[0].value)]
+    others = [m for m in asked.matches if not alike(settled(wanted, m.claim)[0].si_value, candidates[0].value)]
     sure = first.sure and len(candidates) == 1 and all(m.score < first.match.score for m in others)
     return replace(
         missing(wanted),
@@ -89,34 +101,18 @@ def _brought(asked: Asked, pointed: Sequence[Pointed]) -> Specification:
     )
 
 
-def _settles(asked: Asked, found: Match, value: float) -> bool:
-    """Whether a match of the rules is of this value, and doubted for nothing but what a second reader settles: the
-    order of its words on the page, words of a heading, parts that are counted."""
-    quantity, _ = settled(asked.wanted, found.claim)
-    doubt = settled(asked.wanted, replace(found.claim, doubt=""))[1]
-    counted = found.claim.doubt.endswith(COUNTED_TOGETHER)
-    return (
-        _same(quantity.si_value, value)
-        and not doubt
-        and (counted or not found.claim.doubt)
-        and not found.claim.ranged
-        and usual(asked.wanted, quantity.si_value)
-        and says_in_full(found)
-    )
-
-
 def _out_of_conflict(asked: Asked, by_rules: Specification, pointed: Sequence[Pointed]) -> Specification:
     """The candidate that the model points to, where its row, its column or a footnote tells it from the others."""
     for one in pointed:
         value = settled(asked.wanted, one.match.claim)[0].si_value
-        own = [c for c in by_rules.candidates if _same(c.value, value)]
-        others = [c for c in by_rules.candidates if not _same(c.value, value)]
+        own = [c for c in by_rules.candidates if alike(c.value, value)]
+        others = [c for c in by_rules.candidates if not alike(c.value, value)]
         if not own:
             continue
         if one.place.footnote:
             stated = Stated(one.place.footnote, one.place.statement.page)
             chosen = decide(asked.wanted, asked.matches, replace(asked.sheets, stated=(stated,)), asked.config)
-            if chosen.status == "ok" and chosen.value is not None and _same(chosen.value, value):
+            if chosen.status == "ok" and chosen.value is not None and alike(chosen.value, value):
                 return replace(chosen, reason=f"{_both(asked, one)}; {chosen.reason}")
         if one.sure and _is_told_apart(asked.wanted, one, others):
             chosen = _brought(asked, [one])
@@ -125,10 +121,19 @@ def _out_of_conflict(asked: Asked, by_rules: Specification, pointed: Sequence[Po
     return by_rules
 
 
+def _value(asked: Asked, one: Pointed) -> float:
+    return settled(asked.wanted, one.match.claim)[0].si_value
+
+
 def _is_told_apart(wanted: Wanted, one: Pointed, others: Sequence[Candidate]) -> bool:
     """Whether a candidate's row says a word of the wanted value's name that no other's says; or all stand on one row,
-    and the configuration names its column."""
+    and the configuration names its column; or it is the end of a range that holds all others: "9.35 m to 30.5 m", and
+    a chart for each length between."""
     statement = one.place.statement
+    ends = [q.si_value for r in read(statement.text, unit=statement.unit) for q in r.numbers]
+    value = settled(wanted, one.match.claim)[0].si_value
+    if len(ends) == 2 and value in ends and all(min(ends) <= c.value <= max(ends) for c in others):
+        return True
     said = set(tokens(f"{statement.label} {' '.join(statement.column)}"))
     if any(not set(tokens(wanted.name)) & said - set(tokens(c.evidence.quote)) for c in others):
         box = statement.box
@@ -142,14 +147,10 @@ def _both(asked: Asked, one: Pointed) -> str:
     return f"rules and {asked.model} read the same beside '{one.place.statement.label}'"
 
 
-def _same(a: float, b: float) -> bool:
-    return abs(a - b) <= _EQUAL * max(abs(a), abs(b))
-
-
 def _conflict(wanted: Wanted, by_rules: Specification, by_model: Specification) -> Specification:
     candidates: list[Candidate] = []
     for candidate in (*by_rules.candidates, *by_model.candidates):
-        if not any(_same(candidate.value, kept.value) for kept in candidates):
+        if not any(alike(candidate.value, kept.value) for kept in candidates):
             candidates.append(candidate)
     return replace(
         by_rules,

@@ -17,9 +17,10 @@ from yellowiron.model.specification import fold
 from yellowiron.model.template import Wanted
 from yellowiron.specs.language.decimal_style import DecimalStyle
 from yellowiron.specs.language.quantities import same
-from yellowiron.specs.language.vocabulary import KNOWN, NEUTRAL, TELLING, tokens
+from yellowiron.specs.language.vocabulary import KNOWN, tokens
 from yellowiron.specs.layout.page_cells import Cell
-from yellowiron.specs.llm.pointing import PageText, Place, RefusedError, place_of
+from yellowiron.specs.llm.doubts import says_in_full
+from yellowiron.specs.llm.pointing import PageText, Place, RefusedError, Spot, place_of, spot_of
 from yellowiron.specs.llm.prompts import PLACES, places_on
 from yellowiron.specs.values.claims import Claim, claims_of, phrases_in
 from yellowiron.specs.values.decision import settled
@@ -53,10 +54,12 @@ class Pointed:
 
 @dataclass
 class Reading:
-    """What a model found, by wanted name; `refused`: how often and why it was turned away; `unusable`: questions to
-    which it gave no answer of the shape that was asked for."""
+    """What a model found, by wanted name; `seen`: where the numbers stand that it points to, also those whose label was
+    turned away; `refused`: how often and why it was turned away; `unusable`: questions to which it gave no answer of
+    the shape that was asked for."""
 
     found: dict[str, list[Pointed]] = field(default_factory=dict)
+    seen: dict[str, list[Spot]] = field(default_factory=dict)
     refused: Counter[str] = field(default_factory=Counter)
     unusable: int = 0
 
@@ -90,6 +93,8 @@ def read_pages(
         for said in answer["values"]:
             row -= 1
             one = names.get(fold(said["name"]))
+            if one is not None and (spot := spot_of(said, text)) is not None:
+                reading.seen.setdefault(one.name, []).append(spot)
             try:
                 pointed = _checked(one, said, text, row, style, every, config)
                 read_so = [c for c in claims if _is_there(c, pointed)]
@@ -191,21 +196,10 @@ def _judged(
     chosen = not place.in_columns or _named(place, config)
     ranged = claim.ranged and not _end_is_named(one, claim, claims)
     # Of two values that one label may mean ("angle", "greatest angle") only the page can say which it is.
-    shared = [m for found in match([best.claim], rivals).values() for m in found if m.score > best.score - 1e-9]
+    told = match([best.claim], [one, *rivals])  # by its own name, too: "engine power" is no net power then
+    shared = [m for w in rivals for m in told[w.name] if m.score > best.score - 1e-9]
     sure = not (doubt or ranged or shared) and chosen and usual(one, quantity.si_value) and says_in_full(best)
     return Pointed(replace(best, claim=replace(best.claim, ranged=ranged)), place, sure)
-
-
-def says_in_full(found: Match) -> bool:
-    """Whether a label says a value and nothing that a second reader could not settle: no word of it is left over, and
-    none of its headings that tells of a condition or of another body."""
-    if any(t in TELLING for t in found.rest):
-        return False
-    label = {t for t in tokens(found.claim.words) if t not in NEUTRAL}
-    left = label - set(tokens(found.phrase)) - set(tokens(found.wanted.name))
-    if found.phrase and not left:
-        return True
-    return found.score >= LEAST and not found.rest
 
 
 def _spoken(one: Wanted, claim: Claim, claims: Sequence[Claim]) -> str:

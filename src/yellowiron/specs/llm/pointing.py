@@ -12,6 +12,7 @@ from collections.abc import Mapping, Sequence
 from dataclasses import dataclass
 
 from yellowiron.specs.language.numbers import read
+from yellowiron.specs.language.quantities import same
 from yellowiron.specs.layout.page_cells import Cell
 from yellowiron.specs.layout.statement import (
     Statement,
@@ -65,6 +66,30 @@ class Place:
     over: tuple[str, ...]
     in_columns: bool
     footnote: str = ""
+
+
+@dataclass(frozen=True)
+class Spot:
+    """Where a number that is pointed to stands, whatever its label: sheet, page, the cell's box; `words`: why."""
+
+    sheet: int
+    page: int
+    box: Box
+    number: str
+    words: str
+
+
+def spot_of(said: Mapping[str, object], text: PageText) -> Spot | None:
+    """Where an answer's number is printed, in digits or as a word; None where it is not."""
+    cell, number = _number(said["value_cell"]), str(said["value"]).strip()
+    if not 1 <= cell <= len(text.cells) or not re.search(r"\w", number):
+        return None
+    value, unit = text.cells[cell - 1], _number(said["unit_cell"])
+    if unit and not (unit <= len(text.cells) and is_unit(text.cells[unit - 1].bare.split()[0])):
+        return None  # what is pointed to as its unit is none
+    if not re.search(rf"(?<![\w.,]){re.escape(number)}(?!\w*\d|[.,]\d)", value.text, re.IGNORECASE):
+        return None
+    return Spot(text.sheet, text.page, value.box, number, str(said["words"]))
 
 
 def place_of(said: Mapping[str, object], text: PageText, row: int) -> Place:
@@ -180,16 +205,24 @@ def _values_right_of(label: Cell, cells: Sequence[Cell]) -> bool:
 
 
 def _in_columns(value: Cell, cells: Sequence[Cell]) -> bool:
-    """Whether the row has further values beside this one, no words between them: those of other columns."""
+    """Whether the row has further values beside this one, no words between them: those of other columns, and not this
+    one again in the other system of measurement."""
     row = sorted((c for c in cells if _level(c.box, value.box) >= 0.5), key=lambda c: c.box[0])
     at = row.index(value)
     for side in (row[at + 1 :], row[:at][::-1]):
         for cell in side:
             if _is_words(cell, value):
                 break
-            if cell.kind in ("value", "text"):
+            if cell.kind in ("value", "text") and not _is_again(cell, value):
                 return True
     return False
+
+
+def _is_again(cell: Cell, value: Cell) -> bool:
+    """Whether two cells print one quantity in two units, each its own: "169 kW" beside "227 hp"."""
+    own, other = ([q for r in read(c.bare) for q in (*r.numbers, *r.partner)] for c in (value, cell))
+    apart = bool(own and other) and {q.unit for q in own}.isdisjoint(q.unit for q in other)
+    return apart and all(q.unit_printed for q in (*own, *other)) and all(same(a, b) for a in own for b in other)
 
 
 def _above(value: Cell, cells: Sequence[Cell]) -> list[Cell]:

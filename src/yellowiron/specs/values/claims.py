@@ -20,6 +20,8 @@ _TIMES = re.compile(r"(?<![\d.,])([2-9])\s*[x×](?![\w])|[x×]\s*([2-9])(?![\d.,
 
 COUNTED_TOGETHER = "this is what they give together"
 """How the doubt ends about a flow that is printed for one of several pumps."""
+PRINTED_FOR_A_FORCE = "for a force"
+"""How the doubt ends about a force whose unit is a torque's."""
 
 
 @dataclass(frozen=True)
@@ -62,7 +64,7 @@ def _as_force(claim: Claim) -> Claim | None:
     if own is None or not _PULLS & words:
         return None
     slip = claim.quantity.dimension == "torque"
-    doubt = f"the sheet prints '{claim.quantity.unit}' for a force" if slip else claim.doubt
+    doubt = f"the sheet prints '{claim.quantity.unit}' {PRINTED_FOR_A_FORCE}" if slip else claim.doubt
     return replace(claim, quantity=own, partner=claim.partner and _force(claim.partner), doubt=doubt)
 
 

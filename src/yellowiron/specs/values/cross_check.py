@@ -9,7 +9,7 @@ from __future__ import annotations
 
 from collections.abc import Mapping, Sequence
 from collections.abc import Set as AbstractSet
-from dataclasses import replace
+from dataclasses import dataclass, replace
 
 from yellowiron.model.specification import Candidate, Evidence, Specification
 from yellowiron.model.template import Wanted
@@ -42,22 +42,31 @@ _NEARBY = 0.4
 """Confidence of a value that only the nearest words name: less than of a doubtful one whose layout was understood."""
 
 
+@dataclass(frozen=True)
+class Nearby:
+    """What the second reading brought for review, and on which side of the value the words stand."""
+
+    match: Match
+    side: Side
+
+
 def second_reading(
     wanted: Sequence[Wanted],
     values: Mapping[str, Specification],
     near: Sequence[tuple[Sequence[Near], DecimalStyle]],
     sheets: Sheets,
     config: str = "",
-) -> dict[str, Specification]:
+) -> tuple[dict[str, Specification], dict[str, Nearby]]:
     """The values with those that the words nearest to a value name, and doubts where they name another one.
 
     On each side of the values the words speak for themselves: the side with the most matches first, as that is how the
     pages print their labels, and what is said within a text last; a value counts once. Where one label has several
     values, `config` chooses the one that stands under its name, also out of a conflict of the rules. `near`: what each
-    file prints, with how it writes decimals.
+    file prints, with how it writes decimals. And by name what was brought.
     """
+    brought: dict[str, Nearby] = {}
     if not any(own for own, _ in near):
-        return dict(values)
+        return dict(values), brought
     asked = {w.name: w for w in wanted if w.in_label_of is None}
     taken = [(seen, value) for one in values.values() if one.status != "missing" for seen, value in _seen(one)]
     found = dict(values)
@@ -73,12 +82,12 @@ def second_reading(
             evidence, own = evidence_of(one, sheets), _value(one)
             settles = side == "left" and name in chosen and _is_offered(values[name], one)
             if found[name].status == "conflict" and settles:
-                found[name] = _to_review(one, side, sheets)
+                found[name], brought[name] = _to_review(one, side, sheets), Nearby(one, side)
             used = any(_is_there(evidence, seen) and not (listed and value != own) for seen, value in taken)
             if not used and (found[name].status == "missing" or _is_nothing(asked[name], found[name])):
-                found[name] = _to_review(one, side, sheets)
+                found[name], brought[name] = _to_review(one, side, sheets), Nearby(one, side)
                 taken.append((evidence, own))
-    return found
+    return found, brought
 
 
 def _undisputed(

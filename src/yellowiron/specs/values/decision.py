@@ -24,6 +24,8 @@ from yellowiron.support.units import SI_UNIT
 
 _NEAR = 0.15
 """Claims this much weaker than the best still have a say."""
+OF_OTHERS = "has a column of its own"
+"""How the doubt ends about a value that stands in columns of other models alone."""
 _SAID = 0.5
 """A column says a phrase of the configuration if it says this share of its words."""
 
@@ -47,7 +49,7 @@ def decide(wanted: Wanted, matches: Sequence[Match], sheets: Sheets, config: str
     bucket"; a value of the column will do: "4.2 m3")."""
     if not matches:
         return missing(wanted)
-    whole = [m for m in matches if not _is_broken_off(m.claim.statement.label)]
+    whole = [m for m in matches if not is_broken_off(m.claim.statement.label)]
     chosen = _without_charts(_configured(whole or matches, sheets, config))
     groups = _groups(wanted, chosen)
     said, counted = None, ""
@@ -72,9 +74,9 @@ def decide(wanted: Wanted, matches: Sequence[Match], sheets: Sheets, config: str
         doubt = doubt or f"only part of the label says {wanted.name}"
     if not top.claim.statement.proven:
         doubt = doubt or "its words do not stand together in the page's text"
-    if _is_broken_off(top.claim.statement.label):
+    if is_broken_off(top.claim.statement.label):
         doubt = doubt or "its label goes on elsewhere"
-    if any(map(_is_measures, top.claim.statement.column)):
+    if any(map(is_measures, top.claim.statement.column)):
         doubt = doubt or "measures of a drawing stand over it"
     doubt = doubt or counted or _of_others(group, sheets, config)
     if top.claim.ranged:
@@ -95,12 +97,12 @@ def decide(wanted: Wanted, matches: Sequence[Match], sheets: Sheets, config: str
     )
 
 
-def _is_broken_off(label: str) -> bool:
+def is_broken_off(label: str) -> bool:
     """Whether a label ends in the middle: behind a comma or a plus, or in brackets that are not closed."""
     return re.search(r"[,，、+]$|\w[-/]$", label.rstrip()) is not None or label.count("(") > label.count(")")
 
 
-def _is_measures(head: str) -> bool:
+def is_measures(head: str) -> bool:
     """Whether a head is several quantities and no words, which name no column."""
     readings = read(head)
     return len(readings) > 1 and not words_beside_numbers(head, readings)
@@ -226,7 +228,7 @@ def _of_others(group: Sequence[Match], sheets: Sheets, config: str) -> str:
         # The "JS370 LC" is a JS370.
         own = any(head.casefold().split()[: len(words)] == words for column in models for head in column)
         if without_case(phrase) in heads and not own:
-            return f"it stands under {models[0][0]}, and {phrase} has a column of its own"
+            return f"it stands under {models[0][0]}, and {phrase} {OF_OTHERS}"
     return ""
 
 

@@ -1,0 +1,90 @@
+"""Which doubts of the rules a language model settles that reads the same number at the same place, and which not."""
+
+from __future__ import annotations
+
+from pathlib import Path
+
+import pytest
+from specs_layouts import canvas, leaders, put, template, wanted
+
+from kit.sheets.page_models import Entry, Question, at_hand
+from yellowiron.endpoint import ModelOptions
+from yellowiron.model.specification import Specification
+from yellowiron.specs.extraction import from_sheets
+from yellowiron.specs.extraction import read as read_pdf
+
+pytestmark = pytest.mark.usefixtures("read_here")
+
+TYPE = template(
+    wanted("Arm Length", "length", "dipper length"),
+    wanted("Overall Length", "length", "overall length", "maximum length"),
+    wanted("Loading Height", "length", "loading height"),
+    wanted("Main Winch Line Pull", "force", "winch line pull"),
+)
+ROWS = [
+    ("Dipper", "880 mm"),
+    ("Total", "9,600 mm"),
+    ("Loading height folding", "6.5 m"),
+    ("Winch line pull", "70 kNm"),
+]
+
+
+@pytest.fixture(scope="module")
+def page(tmp_path_factory: pytest.TempPathFactory) -> Path:
+    path = tmp_path_factory.mktemp("sheets") / "doubted.pdf"
+    c = canvas(path)
+    put(c, 36, 800, "WORKING RANGE", size=12, bold=True)
+    leaders(c, 36, 770, 300, ROWS)
+    c.save()
+    return path
+
+
+def pointing(question: Question, name: str, label: str, value: str) -> Entry:
+    cells = {c.text: c.number for c in question.cells}
+    shown = next(text for text in cells if value in text)
+    return {
+        "name": name, "value_cell": cells[shown], "value": value, "label_cells": [cells[label]], "unit_cell": 0,
+        "column_cell": 0, "footnote_cell": 0, "words": label,
+    }  # fmt: skip
+
+
+def said(page: Path, name: str, label: str, value: str) -> tuple[Specification, Specification]:
+    """What the rules say of a value, and what becomes of it with a model that points there."""
+    sheet = read_pdf(page)
+    with at_hand(lambda question: [pointing(question, name, label, value)]):
+        both = from_sheets(TYPE, [sheet], extractor="both", model=ModelOptions("m", "http://localhost"))
+    return from_sheets(TYPE, [sheet]).values[name], both.values[name]
+
+
+@pytest.mark.parametrize(
+    ("name", "label", "value"),
+    [
+        ("Arm Length", "Dipper", "880"),  # that it is a length, only its unit says
+        ("Main Winch Line Pull", "Winch line pull", "70"),  # a slip of the unit
+    ],
+)
+def test_what_the_layout_left_open_is_settled(page: Path, name: str, label: str, value: str) -> None:
+    alone, both = said(page, name, label, value)
+    assert alone.status == "review" and both.status == "ok"
+    assert both.value == alone.value and both.evidence == alone.evidence
+
+
+@pytest.mark.parametrize(
+    ("name", "label", "value"),
+    [
+        ("Overall Length", "Total", "9,600"),  # how much, and not of what
+        ("Loading Height", "Loading height folding", "6.5"),  # a word of which nothing is known
+        ("Arm Length", "Total", "880"),  # the words stand elsewhere
+    ],
+)
+def test_what_the_page_leaves_open_is_not(page: Path, name: str, label: str, value: str) -> None:
+    _, both = said(page, name, label, value)
+    assert both.status != "ok"
+
+
+def test_played_models_do_not_answer_for_one_another(
+    page: Path, tmp_path: Path, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    monkeypatch.setenv("YELLOWIRON_CACHE", str(tmp_path))
+    assert said(page, "Arm Length", "Total", "880")[1].status != "ok"
+    assert said(page, "Arm Length", "Dipper", "880")[1].status == "ok"
