@@ -28,7 +28,8 @@ def raised(mechanism: Mechanism, chain: ClosedChain, wheels: Sequence[GroundWhee
     for motion in motions(mechanism) if feet else ():
         for end in (motion.low, motion.high) if motion.position else ():
             places = np.linspace(0.0, end, _SAMPLES)
-            for foot, heights in _rises(mechanism, chain, feet, chain.sweep({motion.joint: places})).items():
+            states = chain.sweep({motion.joint: places})
+            for foot, heights in _rises(mechanism, chain, feet, states).items() if states else ():
                 high = [number for number, height in enumerate(heights) if height >= CLEAR]
                 number = high[0] if high else int(np.argmax(heights))
                 if heights[number] > max(_RISES, best[foot][0] if foot in best else 0.0):
