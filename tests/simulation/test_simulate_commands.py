@@ -45,8 +45,8 @@ def test_travel_keeps_speed_and_acceleration_and_arrives(
 def test_travel_asks_for_no_more_force_where_the_mass_changes(
     start: float, way: float, speed: float, growth: float, back: bool
 ) -> None:
-    """F = m·a + ½·m'·v²: a loader's steering cylinder feels half the mass at full lock, and what the change takes was
-    left out (its loaded front swung on past its target, to and fro, in every engine that is as weak as the sheet)."""
+    """F = m·a + ½·m'·v²: a loaded loader's steering cylinder feels ten times the mass at one end of what it feels at
+    the other, and what the change takes was left out: in PhysX its front swung on past its target, to and fro."""
     end, step = (start - way if back else start + way), 0.002
     places = np.linspace(-1.5, 1.5, 301)
     masses, force = np.exp(growth * places), 0.3

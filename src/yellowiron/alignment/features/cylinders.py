@@ -51,6 +51,8 @@ pin in its boss."""
 THROUGH = 1.7
 """A rod that comes out at both ends is at least so many times as long as its bore, which is a stroke long: shorter, it
 is a pin, in a boss between whose bushes the bore is wider."""
+BEHIND = 1.0
+"""… and it comes out behind by at least so many times the bore's radius, more than the play of a piston in its end."""
 
 
 def cylinders_of(solids: tuple[Solid, ...], tolerance: float, *, fixed: bool = False) -> list[DrawnCylinder]:
@@ -111,7 +113,7 @@ def _pair(
     out = b - bore.half
     if inside < 1.0 * bore.radius or out < 1.0 * shaft.radius:
         return None
-    through = a < -bore.half - bore.radius
+    through = a < -bore.half - BEHIND * bore.radius
     low, high = tube.span(bore.center, direction)
     far = max(bar.span(bore.center, direction)[1], b)
     reach = 6 * bore.radius
