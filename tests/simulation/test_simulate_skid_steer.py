@@ -41,20 +41,17 @@ def test_full_strokes(file: Path, engine: str, payload: float, actuators: list[s
     assert all(a.final_error_percent < 1.0 for a in result.actuators)
 
 
-@pytest.mark.parametrize("engine", ["mujoco", "physx"])
+@pytest.mark.parametrize("engine", ["mujoco", "newton", "physx"])
 def test_it_drives_and_turns_with_its_two_sides(file: Path, engine: str) -> None:
     """Tyres that stand behind each other scrub: with 70 % of its weight on its rear ones friction leaves 28.6° of 45°
-    for as far as they roll, more than under equal loads. MuJoCo's wheels hop as they slide, and that is told."""
+    for as far as they roll, more than under equal loads. With MuJoCo's own contacts they hop, and it turns by 13°."""
     in_engines.need(engine)
     import_engine(engine)
     result = drive(file, engine=engine)
     in_engines.assert_straight(result)
-    base, tread = 1.22682, 1.5238
-    friction = math.radians(45.0) / (1.0 + (base / tread) ** 2)
     assert result.turning_radius is None and result.spin_geometry == pytest.approx(math.radians(28.6), rel=0.01)
-    assert result.spin is not None and math.radians(9.0) < result.spin < friction < result.spin_geometry
-    told = [f.where for f in driving_findings(result)]
-    assert told == ([] if engine == "physx" else ["turn on the spot"])
+    assert result.spin == pytest.approx(result.spin_geometry, abs=math.radians(3.5))
+    assert not list(driving_findings(result))
 
 
 def test_it_lifts_what_it_is_rated_for(file: Path) -> None:

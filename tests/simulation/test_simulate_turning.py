@@ -8,11 +8,11 @@ import math
 import numpy as np
 import pytest
 
-from yellowiron.model.mechanism import Mechanism
+from yellowiron.model.mechanism import Actuator, ActuatorJoint, Body, Joint, Mechanism, scrubbing
 from yellowiron.simulation.driving.turning import turning_centre
 from yellowiron.simulation.ground import usual_base
 
-LEFT = (0.0, 1.0)
+LEFT, ORIGIN = (0.0, 1.0), (0.0, 0.0, 0.0)
 
 
 def steered(angle: float) -> tuple[float, float]:
@@ -46,3 +46,27 @@ def test_a_machine_whose_trailer_rolls_freely_stands_on_the_ground(mechanism: Me
     rolling = dataclasses.replace(wheel, axis=(1.0, 0.0, 0.0), free=True, drive=None)
     joints = tuple(rolling if j is wheel else j for j in mechanism.joints)
     assert usual_base(dataclasses.replace(mechanism, joints=joints)) == "floating"
+
+
+def _driven(name: str, actuators: int, places: list[tuple[float, float]]) -> Mechanism:
+    """A root with driven wheels at places (x, y), dealt out to actuators in turn."""
+    wheels = [f"wheel_{k}" for k in range(len(places))]
+    joints = tuple(
+        Joint(f"{w}_joint", "revolute", "chassis", w, anchor=(x, y, 0.4), axis=(0.0, 1.0, 0.0))
+        for w, (x, y) in zip(wheels, places, strict=True)
+    )
+    motors = tuple(
+        Actuator(f"drive_{k}", "motor", tuple(ActuatorJoint(j.name) for j in joints[k::actuators]))
+        for k in range(actuators)
+    )
+    bodies = tuple(Body(b, ORIGIN, 1.0, ORIGIN, np.eye(3), (), np.zeros((0, 3))) for b in ("chassis", *wheels))
+    return Mechanism(name, "", "chassis", bodies, joints, actuators=motors)
+
+
+def test_tyres_scrub_where_two_stand_behind_each_other_on_either_side() -> None:
+    skid = [(0.0, 0.8), (0.0, -0.8), (1.2, 0.8), (1.2, -0.8)]
+    assert scrubbing(_driven("skid steer", 2, skid)) == {"wheel_0", "wheel_1", "wheel_2", "wheel_3"}
+    # All wheels on one motor (a loader), an axle of each of two motors, one sprocket a side (tracks): none.
+    assert not scrubbing(_driven("loader", 1, skid))
+    assert not scrubbing(_driven("two axles", 2, [(0.0, 0.8), (1.2, 0.8), (0.0, -0.8), (1.2, -0.8)]))
+    assert not scrubbing(_driven("tracks", 2, skid[:2]))

@@ -351,6 +351,19 @@ def rolling(mechanism: Mechanism) -> frozenset[str]:
     return frozenset(j.body1 for j in pivots if j.name not in looped) - loose
 
 
+def scrubbing(mechanism: Mechanism) -> frozenset[str]:
+    """The wheels of a machine that steers by the speeds of its two sides, on two wheels each: they stand behind each
+    other and cannot all roll, so that they slide across in every turn. None of any other machine."""
+    ahead = {j.name: j for j in mechanism.joints if abs(j.axis[1]) > max(abs(j.axis[0]), abs(j.axis[2]))}
+    motors = [[ahead.get(entry.joint) for entry in a.joints] for a in mechanism.actuators if a.kind == "motor"]
+    sides = [[joint for joint in motor if joint is not None] for motor in motors]
+    sides = [side for side in sides if side]
+    if [len(side) for side in sides] != [2, 2]:
+        return frozenset()
+    one, other = (side[0].anchor[1] + side[1].anchor[1] for side in sides)
+    return frozenset(joint.body1 for side in sides for joint in side) if one * other < 0.0 else frozenset()
+
+
 def independent_joints(mechanism: Mechanism) -> tuple[str, ...]:
     """Tree joints with a coordinate of their own: the driven slide of each cylinder actuator, every motor joint, every
     driven joint besides, and the joints declared free; none that follows another. In the mechanism's order."""

@@ -18,8 +18,8 @@ from yellowiron.exporters.tendons import Tendon, with_tendons
 from yellowiron.exporters.values import axes_of, minus, quaternion, row, srgb, text
 from yellowiron.model.errors import MechanismError
 from yellowiron.model.geometry import Color, Floats
-from yellowiron.model.mechanism import Body, Joint, Mechanism, chained, rolling
-from yellowiron.support.record import CONE, IMPRATIO, integrator_of
+from yellowiron.model.mechanism import Body, Joint, Mechanism, chained, rolling, scrubbing
+from yellowiron.support.record import CONE, IMPRATIO, SCRUBS, integrator_of
 
 TIMESTEP = 0.001
 """Seconds. Pins of a loaded wheel loader stay within 0.02 mm at this step, 0.3 mm at 4 ms and 1.8 mm at 10 ms."""
@@ -121,6 +121,7 @@ class _Document:
         self._drawn: list[float] = []
         self._chained = chained(mechanism)
         self._rolling = rolling(mechanism) if mechanism.floating else frozenset()
+        self._scrubbing = scrubbing(mechanism)
         self._children: dict[str, list[Joint]] = {}
         for joint in mechanism.joints:
             if not joint.cut:
@@ -263,7 +264,9 @@ class _Document:
     def _collider(self, element: ET.Element, body: str, collider: Collider) -> None:
         name = f"{body}.{collider.name}.collision"
         friction = {} if collider.friction is None else {"friction": text(collider.friction)}
-        friction |= {"priority": "1"} if collider.rules else {}
+        scrubs = body in self._scrubbing
+        friction |= {"priority": "1"} if collider.rules or scrubs else {}
+        friction |= {name: row(values) for name, values in SCRUBS.items()} if scrubs else {}
         # A ring's parts touch the wheels that it runs on, the ground, and nothing else of the machine.
         friction |= {"conaffinity": "2"} if body in self._chained else {}
         friction |= {"contype": "3"} if body in self._rolling else {}

@@ -12,8 +12,9 @@ from collections.abc import Container
 
 from pxr import Sdf, Vt
 
-from yellowiron.model.mechanism import Body, Joint, Mechanism
+from yellowiron.model.mechanism import Body, Joint, Mechanism, scrubbing
 from yellowiron.model.template import Follows, by_first_leader
+from yellowiron.support.record import SCRUBS
 from yellowiron.usd.authoring.stage import Types, apply_schemas, over, set_attribute, set_targets
 from yellowiron.usd.layers.articulation import articulation_roots
 from yellowiron.usd.layers.base import shape_path, solid_paths
@@ -68,9 +69,10 @@ def write_mujoco(layer: Sdf.Layer, base: Sdf.Layer, plan: Plan) -> None:
             set_attribute(spec, "mjc:solreflimit", Types.DoubleArray, Vt.DoubleArray(STOP), uniform=True)
     for path in plan.site_paths.values():
         apply_schemas(over(layer, path), "NewtonSiteAPI")
+    scrubs = scrubbing(plan.mechanism)
     ruling = {name for name, m in plan.mechanism.materials.items() if m.friction_combine in RULING}
     for body in plan.mechanism.bodies:
-        _write_priorities(layer, plan, body, ruling)
+        _write_contacts(layer, plan, body, ruling, body.name in scrubs)
         for placed in plan.parts[body.name]:
             path = f"{plan.body_paths[body.name]}/{COLLIDERS}/{placed.name}"
             if placed.approximation.newton_schema and base.GetPrimAtPath(path).typeName == "Mesh":
@@ -119,14 +121,16 @@ def _write_follows(spec: Sdf.PrimSpec, joint: Joint, follows: Follows, plan: Pla
         set_attribute(spec, f"{MIMIC_NAMES}Coef1", Types.Float, float(follows.ratio))
 
 
-def _write_priorities(layer: Sdf.Layer, plan: Plan, body: Body, ruling: Container[str]) -> None:
-    """Colliders of a body whose material is a `ruling` one rule by priority."""
+def _write_contacts(layer: Sdf.Layer, plan: Plan, body: Body, ruling: Container[str], scrubs: bool) -> None:
+    """Colliders of a body whose material is a `ruling` one, or which `scrubs`, rule by priority."""
     home = plan.body_paths[body.name]
     own = [(shape_path(home, s), s.material) for s in body.shapes]
     drawn = [(f"{home}/{COLLIDERS}/{p.name}", p.data.material) for p in plan.parts[body.name] if p.collides]
     pooled = [(path, solid.data.material) for path, solid in solid_paths(plan, body.name)]
     for path, material in (*own, *drawn, *pooled):
-        if material in ruling:
+        if material in ruling or scrubs:
             spec = over(layer, path)
             apply_schemas(spec, "MjcCollisionAPI")
             set_attribute(spec, "mjc:priority", Types.Int, 1, uniform=True)
+            for name, values in SCRUBS.items() if scrubs else ():
+                set_attribute(spec, f"mjc:{name}", Types.DoubleArray, Vt.DoubleArray(values), uniform=True)
