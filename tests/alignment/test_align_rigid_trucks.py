@@ -24,20 +24,28 @@ def test_every_part_is_in_its_body(seed: int, triangles: bool) -> None:
     found_whole(machine, "rigid_dump_truck", seed, triangles=triangles)
 
 
-def test_an_axle_that_the_type_does_not_have_stands_still_and_is_asked_about() -> None:
-    """A third one, close behind the second: its wheels are no dump body, nor do they leave the front ones out."""
+@pytest.mark.parametrize("count", [1, 2])
+def test_axles_that_the_type_does_not_have_roll_on_its_frame(count: int) -> None:
+    """Further ones, close behind the rear one: their wheels are no dump body, nor do they leave the front ones out."""
     machine = rigid_truck(5)
     radius = 0.5 * float(np.ptp(_points(machine, "front_tyre_l")[:, 2]))
-    behind = np.eye(4)
-    behind[0, 3] = -2.02 * radius
-    for part in [p for p in machine.parts if machine.truth[p.id][1].startswith("rear_wheel")]:
-        copy = replace(part, id=f"{part.id} third", transform=behind @ part.transform)
-        machine.parts.append(copy)
-        machine.truth[copy.id] = ("third", "chassis")
+    rear = [p for p in machine.parts if machine.truth[p.id][1] in ("rear_wheel_l", "rear_wheel_r")]
+    rear += [p for p in machine.parts if "rear axle case" in p.id]
+    for number in range(1, count + 1):
+        behind = np.eye(4)
+        behind[0, 3] = -2.02 * radius * number
+        for part in rear:
+            copy = replace(part, id=f"{part.id} further {number}", transform=behind @ part.transform)
+            body = machine.truth[part.id][1].replace("rear", "further")
+            machine.parts.append(copy)
+            machine.truth[copy.id] = ("further", f"{body}_{number}" if "wheel" in body else "chassis")
     assembly, truth, _ = disguise(machine, 5)
     found = align(assembly, load_template("rigid_dump_truck"), Specifications())
     assert [(truth[p.part], p.body) for p in found.parts if p.body != truth[p.part][1]] == []
-    assert {part for part, (role, _) in truth.items() if role == "third"} <= set(found.to_review)
+    rows = [f"further_{kind}_{side}" for kind in ("tyre", "wheel") for side in "lr"]
+    assert found.counts == dict.fromkeys(rows, count)
+    assert not {part for part, (role, _) in truth.items() if role == "further"} & set(found.to_review)
+    assert {f"further_wheel_{side}_joint_{count}" for side in "lr"} <= found.axes.keys()
 
 
 def _points(machine: Machine, role: str) -> Floats:

@@ -49,7 +49,8 @@ from yellowiron.alignment.fusion.reading import AS_GOOD, fused
 from yellowiron.alignment.labelling.bystanders import among_strangers, doubted
 from yellowiron.alignment.labelling.coupler import with_couplers
 from yellowiron.alignment.labelling.fittings import fittings_of, sitting
-from yellowiron.alignment.labelling.place import pin_role, standing_wheels
+from yellowiron.alignment.labelling.further_axles import FurtherWheel, axle_tubes, further_wheels
+from yellowiron.alignment.labelling.place import pin_role
 from yellowiron.alignment.labelling.propagation import Propagation
 from yellowiron.alignment.labelling.rams import with_rams
 from yellowiron.alignment.labelling.result import Labels, to_alignment
@@ -127,8 +128,8 @@ def align(
     fittings = fittings_of(machine) - edited.keys()
     machine = _without(machine, fittings)
     plain = without_tracks(template)
-    spare = {part: tyre for part, tyre in _spare(machine, plain).items() if part not in edited}
-    machine = _without(machine, spare)
+    further = [w for w in _spare(machine, plain) if not w.parts & edited.keys()]
+    machine = _without(machine, frozenset().union(*(w.parts for w in further)))
     up = _upright(tracks)
     rows = tuple(solids_of(tracking)[i] for i in tracked)
 
@@ -184,7 +185,14 @@ def align(
     if fittings:
         solids = solids_of(tracking)
         by_id |= sitting(by_id, fittings, solids, touch_of(tracking, answer.contact * observation.size))
-    by_id |= standing_wheels(by_id, spare, answer.template, set(answer.solution.body_of.values()))
+    present = set(answer.solution.body_of.values())
+    on_further = further_wheels(further, by_id, whole, present, frame.matrix if frame is not None else None)
+    if further:
+        solids = solids_of(tracking)
+        touch = touch_of(tracking, answer.contact * observation.size)
+        tubes = axle_tubes(further, on_further, by_id, solids, touch, whole)
+        apart = {part: metres for part, metres in apart.items() if part not in tubes}
+        by_id = {**by_id, **on_further.places, **tubes}
     by_id |= {copy: by_id[first] for copy, first in copies.items() if first in by_id}
     apart |= {copy: apart[first] for copy, first in copies.items() if first in apart}
     found = to_alignment(
@@ -193,7 +201,7 @@ def align(
         answer,
         Labels(by_id, apart, bumpers, decisions),
         frame or MachineFrame(np.eye(4)),
-        axes=_axes(answer, observation),
+        axes={**_axes(answer, observation), **on_further.axes},
         told=choices.keys(),
         remarks=[
             *told,
@@ -221,7 +229,8 @@ def align(
         against = unlikely(said, called, found, every, len(observation.cylinders)) if edits.machine else ()
         found = replace(found, findings=(*found.findings, *against))
     drawn_axles = as_drawn(whole, {p.body for p in found.parts if p.body is not None})
-    return _with_all_axes(found, _without(assembly, {*fittings, *spare}), drawn_axles, answer, observation, frame)
+    aside = {*fittings, *on_further.places}
+    return _with_all_axes(found, _without(assembly, aside), drawn_axles, answer, observation, frame)
 
 
 def _with_all_axes(
@@ -442,11 +451,17 @@ def _carried(answer: Answer, joint: str) -> str | None:
     return answer.template.bodies_of(answer.template.joint(joint))[1]
 
 
-def _spare(assembly: Assembly, template: Template) -> dict[str, str]:
-    """Part of a wheel that the type does not have → the tyre of the wheel that it stands behind (ids)."""
+def _spare(assembly: Assembly, template: Template) -> tuple[FurtherWheel, ...]:
+    """The wheels of axles that the type does not have."""
     solids = solids_of(assembly)
     found = spare_wheels(solids, template, CONTACT[-1] * size_of(solids)) if solids else []
-    return {solids[i].part.id: solids[tyre].part.id for members, tyre in found for i in sorted(members)}
+
+    def ids(members: Collection[int]) -> frozenset[str]:
+        return frozenset(solids[i].part.id for i in members)
+
+    return tuple(
+        FurtherWheel(ids(w.members), ids(w.tyres), w.center, w.direction, solids[w.beside].part.id) for w in found
+    )
 
 
 def _upright(tracks: list[Track]) -> Floats | None:

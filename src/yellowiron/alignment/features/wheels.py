@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import itertools
 from dataclasses import dataclass, replace
 
 import numpy as np
@@ -57,32 +58,78 @@ LIKE = 0.5
 
 def rolling_of(solids: tuple[Solid, ...], template: Template, taken: set[int], tolerance: float) -> list[Wheel]:
     """The drums and wheels of a template, as many as it has at most; what is in a drum is no wheel."""
-    rolling = [r for r in template.roles if r.kind == "wheel" and r.rigid]
+    rolling = [r for r in template.roles if r.kind == "wheel" and r.rigid and not r.many]
     drums = drums_of(solids, sum(r.drum for r in rolling), taken, tolerance)
     inside = taken.union(*(d.members for d in drums))
     return [*drums, *wheels_of(solids, sum(not r.drum for r in rolling), inside, tolerance)]
 
 
-def spare_wheels(solids: tuple[Solid, ...], template: Template, tolerance: float) -> list[tuple[frozenset[int], int]]:
-    """Wheels of an axle that a type does not have, close behind one that it has (a bogie's): the solids of each, and
-    the tyre of the wheel that it stands behind. None where that does not leave as many wheels as the type has."""
-    count = sum(r.kind == "wheel" and r.rigid and not r.drum for r in template.roles)
+@dataclass(frozen=True, eq=False)
+class SpareWheel:
+    """A wheel of an axle that a type does not have: its solids, its tyre or twin tyres among them, its middle (metres,
+    CAD frame) on its unit axis `direction`, and the tyre of the wheel `beside` it that the type has."""
+
+    members: frozenset[int]
+    tyres: frozenset[int]
+    center: Floats
+    direction: Floats
+    beside: int
+
+
+def spare_wheels(solids: tuple[Solid, ...], template: Template, tolerance: float) -> list[SpareWheel]:
+    """The wheels of axles that a type does not have: of a bogie's axles all but one, else, of more than two axles in a
+    row, those between the first and the last. None where neither leaves as many wheels as the type has."""
+    count = sum(r.kind == "wheel" and r.rigid and not r.drum and not r.many for r in template.roles)
     equal = _equal_rings(solids, set()) if count else []
     if len(equal) <= count or len(equal := _twin_tyres(equal)) <= count:
         return []
-    middle = np.mean([w.center for w in equal], axis=0)
+    ways = (_bogies(equal), _inner_axles(equal))
+    spare = next((spare for kept, spare in ways if len(kept) == count), [])
+    # All that is about a spare wheel, its twin tyre too; what it stands beside is the tyre of one that is kept.
+    whole = [(_with_all_about(w, solids, set(), tolerance), w.members, beside) for w, beside in spare]
+    return [SpareWheel(_all_within(w, solids), tyres, w.center, w.direction, beside) for w, tyres, beside in whole]
+
+
+def _bogies(wheels: list[Wheel]) -> tuple[list[Wheel], list[tuple[Wheel, int]]]:
+    """Of wheels close behind each other one, and the others, each with the tyre of that one."""
+    middle = np.mean([w.center for w in wheels], axis=0)
+    # A bogie's wheel nearest to the middle of the machine stays: its axle is the one that carries the most.
+    left = sorted(wheels, key=lambda w: (round(float(np.linalg.norm(w.center - middle)), 4), w.tyre))
     kept: list[Wheel] = []
     spare: list[tuple[Wheel, int]] = []
-    # A bogie's wheel nearer to the middle of the machine stays: its axle is the one that carries the more.
-    for wheel in sorted(equal, key=lambda w: (round(float(np.linalg.norm(w.center - middle)), 4), w.tyre)):
-        beside = next((w for w in kept if _of_one_bogie(w, wheel)), None)
-        if beside is None:
-            kept.append(wheel)
-        else:
-            spare.append((wheel, beside.tyre))
-    if len(kept) > count:
-        return []
-    return [(_all_within(_with_all_about(w, solids, set(), tolerance), solids), tyre) for w, tyre in spare]
+    while left:
+        first, *left = left
+        kept.append(first)
+        row = [first]
+        for wheel in row:
+            beside = [w for w in left if _of_one_bogie(wheel, w)]
+            row += beside
+            left = [w for w in left if not any(w is other for other in beside)]
+        spare += [(w, first.tyre) for w in row[1:]]
+    return kept, spare
+
+
+def _inner_axles(wheels: list[Wheel]) -> tuple[list[Wheel], list[tuple[Wheel, int]]]:
+    """The wheels of the first and the last axle of a row of axles, and those between, each with the tyre of the wheel
+    on its side of the nearer of the two. All are kept where they are no row of axles of two wheels each."""
+    axle = unit(np.sum([w.direction * np.sign(w.direction @ wheels[0].direction) for w in wheels], axis=0))
+    centers = np.array([w.center for w in wheels])
+    flat = centers - centers.mean(axis=0)
+    flat = flat - np.outer(flat @ axle, axle)
+    along = flat @ np.linalg.svd(flat)[2][0]
+    order = sorted(range(len(wheels)), key=lambda k: (round(float(along[k]), 4), round(float(centers[k] @ axle), 4)))
+    rows = [order[k : k + 2] for k in range(0, len(order), 2)]
+    radius = wheels[0].radius
+    paired = all(len(row) == 2 and abs(along[row[0]] - along[row[1]]) < 0.5 * radius for row in rows)
+    apart = all(along[b[0]] - along[a[0]] > radius for a, b in itertools.pairwise(rows))
+    if len(rows) < 3 or not (paired and apart):
+        return wheels, []
+    ends = [wheels[k] for row in (rows[0], rows[-1]) for k in row]
+    spare = []
+    for k in (k for row in rows[1:-1] for k in row):
+        beside = min(ends, key=lambda w: (round(float(np.linalg.norm(w.center - wheels[k].center)), 4), w.tyre))
+        spare.append((wheels[k], beside.tyre))
+    return ends, spare
 
 
 def _all_within(wheel: Wheel, solids: tuple[Solid, ...]) -> frozenset[int]:

@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-from collections.abc import Collection, Mapping
 from dataclasses import dataclass
 
 from yellowiron.model.template import JointTemplate, Template
@@ -35,20 +34,3 @@ def pin_role(joint: JointTemplate, template: Template) -> str | None:
         if not template.role(name.partition("[")[0]).rigid:
             return name
     return None
-
-
-def standing_wheels(
-    found: Mapping[str, Place], spare: Mapping[str, str], template: Template, drawn: Collection[str]
-) -> dict[str, Place]:
-    """Part's id → place, of wheels of an axle that the type does not have: with the frame that the wheel beside them
-    turns on, for review; on the body of that wheel they would turn about its axle. `spare`: part → that wheel's tyre;
-    `drawn`: the bodies that are there."""
-    places = {}
-    for part, tyre in spare.items():
-        wheel = found[tyre].body if tyre in found else None
-        joined = [b for j in template.joints if wheel in (ends := template.bodies_of(j)) for b in ends if b != wheel]
-        frames = [b for b in joined if b is not None and template.role(b).kind == "frame" and b in drawn]
-        frame = frames[0] if frames else template.root
-        words = f"a wheel of an axle that the type does not have: it stands still on {frame}"
-        places[part] = Place(frame, frame, DOUBTFUL, words, how="near")
-    return places

@@ -351,10 +351,11 @@ def _tyre_diameter(quantity: Mapping[str, Any], posed: Posed) -> float:
 
 def _turning_radius(quantity: Mapping[str, Any], posed: Posed) -> float:
     """From the middle of the turn to the outer side of the outermost tyre, seen from above; `of` `min`: to the inner
-    side of the innermost. The middle is where the wheels' axes come nearest to each other (least squares): of two
-    parallel axles of a bogie counts the line midway."""
+    side of the innermost. The middle is where the axes of the wheels (of `bodies`, where named: a further axle would be
+    steered as well) come nearest to each other (least squares): of two parallel axles of a bogie counts the line
+    midway."""
     places, axes, halves = [], [], []
-    for joint, radius in posed.rolling:
+    for joint, radius in ((j, r) for j, r in posed.rolling if j.body1 in quantity.get("bodies", j.body1)):
         axis = posed.direction(joint.body0, joint.axis)[:2]
         hull = np.asarray(posed.mechanism.body(joint.body1).hull, dtype=np.float64) - np.array(joint.anchor)
         along = hull @ np.array(joint.axis)

@@ -127,7 +127,8 @@ def _radius(run: Run) -> dict[str, Any] | None:
     if run.get("turning_radius_m") is None:
         return None
     error = run["radius_error_percent"]
-    note = f"geometry {run['geometry_radius_m']:.2f} m at {run['lock_deg']:.1f}°"
+    at = f"at {run['lock_deg']:.1f}°"
+    note = f"geometry {run['geometry_radius_m']:.2f} m {at}" if run["geometry_radius_m"] else f"{at}; an axle drags"
     held = None if error is None else abs(error) <= RADIUS_BAR
     if error is not None:
         note += f": {signed(error, 1, ' %')}, within {RADIUS_BAR:g} %"

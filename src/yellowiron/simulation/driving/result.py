@@ -24,12 +24,13 @@ SPIN_BAR, SWING_BAR = 0.1 * SPIN, math.radians(1.0)
 class DrivingResult:
     """Metres, radians, seconds. `sunk` and `creep`: how far the root came down and its speed after settling. Travel is
     the root's; `turning_radius` is that of the outermost wheel's middle, `geometry_radius` where the axles' lines meet
-    at the measured lock, of a machine with a drum where dry friction lets it turn (`sliding`); `axes_radius`: by the
-    axles' lines in any case. `spin`: the turn on the spot of a machine that steers by its two sides' speeds, against
-    `spin_geometry`, what dry friction leaves of it on tyres for as far as they rolled (`tracked.spin`); tracks slip.
-    `swing`: by how much the slewing body's heading, seen from the ground, changed, against what its motor was told.
-    `axle_angle`: the free axle's coordinate with one wheel on a block, `axle_geometry` what block and tread make of it;
-    `highest_wheel`: the most that a wheel ever rose from what it stood on. None: not driven."""
+    at the measured lock, of a machine with a drum where dry friction lets it turn (`sliding`), none of one with an axle
+    too many that neither drives nor steers; `axes_radius`: by the axles' lines in any case. `spin`: the turn on the
+    spot of a machine that steers by its two sides' speeds, against `spin_geometry`, what dry friction leaves of it on
+    tyres for as far as they rolled (`tracked.spin`); tracks slip. `swing`: by how much the slewing body's heading, seen
+    from the ground, changed, against what its motor was told. `axle_angle`: the free axle's coordinate with one wheel
+    on a block, `axle_geometry` what block and tread make of it; `highest_wheel`: the most that a wheel ever rose from
+    what it stood on. None: not driven."""
 
     engine: str
     dt: float

@@ -40,6 +40,10 @@ _RUN = 2.0
 _LOCK = 0.998
 """Share of the steering stroke that is full lock."""
 _ROOM = 0.05
+_DRAGS = 0.1
+"""A wheel slides across by this share of its way in a turn, …"""
+_STRAIGHT = 0.999
+"""… and is not steered if its axis lies as drawn by this cosine."""
 
 
 def drive(usd_path: str | Path, *, engine: str, payload_kg: float = 0.0, dt: float | None = None) -> DrivingResult:
@@ -222,6 +226,17 @@ class _Trip:
         x, y, turn = least_sliding(under, circles)
         return np.asarray(np.linalg.norm(places - np.array([-y, x]) / turn, axis=1))
 
+    def _drags(self, coordinates: Mapping[str, float]) -> bool:
+        """Whether an axle too many drags in a turn, neither driven nor steered: by dry friction it takes as much to
+        turn about one straight axle as about the other, and which it is depends on what each happens to bear."""
+        _, places, axes = self._posed(coordinates)
+        centre = turning_centre(places, axes)
+        ahead = np.column_stack([-axes[:, 1], axes[:, 0]])
+        across = np.abs(np.sum(ahead * (places - centre), axis=1)) / np.linalg.norm(places - centre, axis=1)
+        straight = [abs(float(a @ w.axis[:2])) > _STRAIGHT for a, w in zip(axes, self.wheels, strict=True)]
+        idle = any(s and not w.actuator for s, w in zip(straight, self.wheels, strict=True))
+        return idle and float(across.max()) > _DRAGS
+
     def _turn(self, engine: Engine) -> dict[str, float | None]:
         motion = self._steer
         if motion is None:
@@ -246,12 +261,12 @@ class _Trip:
         outer = int(np.argmax(circles))
         held = dict(zip(measured, np.mean(locks, axis=0).tolist(), strict=True))
         meeting = self._circles(held)
-        geometry = self._slid(held, meeting)
+        geometry = None if self._drags(held) else float(self._slid(held, meeting)[outer])
         self._rest(engine, 1.0)
         return {
             "lock": self._lock(held),
             "turning_radius": circle_radius(np.array(path)[:, outer, :2]),
-            "geometry_radius": float(geometry[outer]),
+            "geometry_radius": geometry,
             "axes_radius": float(meeting[outer]),
         }
 
