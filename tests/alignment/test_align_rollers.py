@@ -58,6 +58,7 @@ def test_a_drum_is_wide_and_all_that_is_in_it_is_of_it(tandem: bool, bodies: lis
     assert np.min(widths) > 1.5
 
 
+@pytest.mark.slow
 def test_other_types_know_no_drums() -> None:
     for name in library.list_templates():
         if name != "roller" and not library.is_sheet_only(name):

@@ -31,7 +31,9 @@ def test_every_part_is_in_its_body(seed: int, triangles: bool) -> None:
     assert {name: found.choices[name] for name in expected} == expected
 
 
-@pytest.mark.parametrize("seed", [1401, 1403, 1404])
+@pytest.mark.parametrize(
+    "seed", [pytest.param(1401, marks=pytest.mark.slow), 1403, pytest.param(1404, marks=pytest.mark.slow)]
+)
 def test_plates_in_each_other_and_wide_bearings_are_told_apart(seed: int) -> None:
     # Plates drawn into each other show little flat contact; the bearing of 1403 is as large as its wheels; where parts
     # only touch, the rod of a steering cylinder that hangs on no pins touches its barrel.

@@ -104,12 +104,14 @@ def test_a_drawbar_over_full_strokes_agrees_with_the_independent_solution() -> N
     assert worst_of_drawbar(np.zeros(21), paths) <= BAR
 
 
+@pytest.mark.slow
 @settings(max_examples=15, deadline=None)
 @given(wobble=st.lists(st.floats(-1.0, 1.0), min_size=39, max_size=39), share=st.floats(0.3, 0.8))
 def test_any_blade_agrees_with_the_independent_solution(wobble: list[float], share: float) -> None:
     assert worst_of_blade(np.array(wobble), strokes(25, {n: share * t for n, t in DRIVEN.items()})) <= BAR
 
 
+@pytest.mark.slow
 @settings(max_examples=15, deadline=None)
 @given(wobble=st.lists(st.floats(-1.0, 1.0), min_size=21, max_size=21), share=st.floats(0.3, 0.8))
 def test_any_drawbar_agrees_with_the_independent_solution(wobble: list[float], share: float) -> None:

@@ -99,7 +99,7 @@ def test_a_set_brake_is_a_stiff_spring_as_strong_as_it_where_friction_alone_cree
     assert held["set"] == pytest.approx((math.radians(brake.brake / 0.002), brake.brake), rel=1e-5)
 
 
-@pytest.mark.parametrize("engine", ["newton", "physx"])
+@pytest.mark.parametrize("engine", [pytest.param("newton", marks=pytest.mark.slow), "physx"])
 def test_the_variant_sets_the_brakes(written: tuple[Mechanism, Path], engine: str) -> None:
     need(engine)
     moved = {}

@@ -86,6 +86,7 @@ def test_the_small_machine_drives_and_climbs(usd_file: Path) -> None:
     ]
 
 
+@pytest.mark.slow
 def test_a_crawler_drives_and_turns_on_the_spot(tmp_path: Path) -> None:
     """Its hidden wheels drive it as any wheels do; nothing steers, so its sides turn against each other."""
     drawn = crawler(24, 3, 1)

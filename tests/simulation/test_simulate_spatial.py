@@ -33,6 +33,7 @@ def written(request: pytest.FixtureRequest, tmp_path_factory: pytest.TempPathFac
     return mechanism, write(tmp_path_factory.mktemp(request.param), mechanism)
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize("engine", EVERY)
 def test_pins_hold_over_the_strokes_of_all_cylinders(written: tuple[Mechanism, Path], engine: str) -> None:
     need(engine)

@@ -307,16 +307,21 @@ def _spring(entry: JointTemplate) -> Spring | None:
 
 
 def _with_idle_held(joints: Sequence[Joint], tree: Tree, findings: list[Finding]) -> tuple[Joint, ...]:
-    """The joints, those kept as drawn that nothing moves or holds: a barrel without its rod, a lone link."""
+    """The joints, those kept as drawn that nothing moves or holds: a barrel without its rod, a lone link. A ball, which
+    has no limits to keep it by, is welded."""
     closed = {name for loop in tree.loops for name in loop.joints}
     held = []
     for joint in joints:
         moved = joint.free or joint.name in closed or joint.follows is not None
-        if joint.type in ("revolute", "prismatic") and joint.drive is None and not moved:
+        if joint.type in ("revolute", "prismatic", "spherical") and joint.drive is None and not moved:
             words = f"Nothing moves or holds '{joint.body1}' on it: it stands as drawn."
             hint = "Give what is missing of its linkage in CAD, or make the joint free in a joints document (--data)."
             findings.append(Finding("MEC019", "warning", joint.name, words, hint))
-            joint = replace(joint, lower=-HELD, upper=HELD, source={**joint.source, "limits": "held as drawn"})
+            source = {**joint.source, "limits": "held as drawn"}
+            if joint.type == "spherical":
+                joint = replace(joint, type="fixed", lower=None, upper=None, source=source)
+            else:
+                joint = replace(joint, lower=-HELD, upper=HELD, source=source)
         held.append(joint)
     return tuple(held)
 
