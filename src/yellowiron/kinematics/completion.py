@@ -14,6 +14,7 @@ from yellowiron.kinematics.solver.independence import suspects
 from yellowiron.kinematics.solver.pose_grid import PoseGrid, explore, joint_values
 from yellowiron.kinematics.spatial_hints import locked_hint
 from yellowiron.kinematics.springs import set_rests
+from yellowiron.kinematics.steadying import steady
 from yellowiron.kinematics.strength import strong_enough
 from yellowiron.kinematics.tolerances import PINS_APART
 from yellowiron.kinematics.twins import end_with_twins, twins_out_of_stroke
@@ -83,6 +84,7 @@ def complete(mechanism: Mechanism) -> Mechanism:
     work.findings += strong_enough(chain, grids, work.joints)
     work.findings += set_gains(chain, grids, work.joints, ringed=bool(whole.floating))
     set_brakes(chain, grids, work.joints)
+    steady(chain, grids, work.joints)
     work.findings += set_rests(chain, work.joints)
     return replace(
         whole,

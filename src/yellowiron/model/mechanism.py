@@ -163,7 +163,9 @@ class Joint:
     body nearer the root); `axis` is a unit vector, `anchor` a point on it, both in the machine frame. Limits are in
     metres or radians from the drawn pose, None: unlimited. `free` coordinates move without a drive (an oscillating
     axle), where they have one against a `spring`; that of one that `follows` is its leader's times a ratio. `source`
-    holds the evidence: template entry, CAD parts, residuals, page and quote of a limit."""
+    holds the evidence: template entry, CAD parts, residuals, page and quote of a limit. `armature`, kg·m², is an
+    inertia of its own of a hinge that nothing drives, by which engines that iterate hold its loop
+    (`kinematics.steadying`)."""
 
     name: str
     type: JointType
@@ -179,6 +181,7 @@ class Joint:
     source: Mapping[str, Any] = field(default_factory=dict)
     follows: Follows | None = None
     spring: Spring | None = None
+    armature: float = 0.0
 
     @property
     def held(self) -> bool:

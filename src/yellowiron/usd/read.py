@@ -256,6 +256,7 @@ class _Reader:
             source=from_json(dict, data["evidence"]) if "evidence" in data else {},
             follows=self._follows(prim, kind, data),
             spring=_spring(prim, kind, data),
+            armature=float(data.get("armature", 0.0)),
         )
 
     def _follows(self, prim: Usd.Prim, kind: str, data: Any) -> Follows | None:

@@ -109,6 +109,7 @@ def describe_joint(joint: Joint, *, floating: bool = False) -> dict[str, Any]:
         "follows": to_json(joint.follows) if joint.follows else None,
         "drive": to_json(joint.drive) if joint.drive else None,
         "spring": to_json(joint.spring) if joint.spring else None,
+        "armature": joint.armature or None,
         "source": _readable(joint.source) or None,
         "evidence": to_json(joint.source) if joint.source else None,
     }

@@ -66,8 +66,8 @@ def write_physx(layer: Sdf.Layer, base: Sdf.Layer, plan: Plan) -> None:
     for joint in plan.mechanism.joints:
         if math.isfinite(limit := speed_limit(joint)):
             _write_joint(over(layer, plan.joint_paths[joint.name]), joint, "maxJointVelocity", limit)
-        if joint.drive is not None and joint.drive.armature > 0.0:
-            _write_joint(over(layer, plan.joint_paths[joint.name]), joint, "armature", joint.drive.armature)
+        if (armature := joint.armature if joint.drive is None else joint.drive.armature) > 0.0:
+            _write_joint(over(layer, plan.joint_paths[joint.name]), joint, "armature", armature)
     for name in endless(plan.mechanism):
         spec = over(layer, plan.joint_paths[name])
         set_attribute(spec, "physics:lowerLimit", Types.Float, -ENDLESS)
