@@ -316,6 +316,8 @@ def _match(asked_for: _Asked, claim: Claim, said: _Said) -> Match | None:
         return None
     explained, from_head, borrowed, best = found.words, found.from_head, found.borrowed, found.phrase
     primary = (label if explained & label else set()) | (head if from_head else set()) or context | section
+    if primary <= _EXTREME:  # "Total retardation power", and beside it "721 kW Maximum": what it is the most of counts
+        primary = primary | (said.contexts[-1] if said.contexts else section)
     # A word of the value's own name makes the label mean nothing else.
     left = {t for t in primary - explained - _EXTREME - asked_for.name if not _is_number(t)}
     left = {t for t in left if t not in NEUTRAL or _is_telling(t, asked_for, explained | left, claim, said, KNOWN)}

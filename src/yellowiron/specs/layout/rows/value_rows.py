@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import re
 from collections.abc import Sequence
 from dataclasses import replace
 
@@ -33,7 +34,7 @@ from yellowiron.specs.pages.words import Page
 def read_values(page: Page, row: Sequence[TextLine], state: ReaderState, number: int, found: list[Statement]) -> None:
     """Adds the statements of a row with values, `number` theirs, to those found above it."""
     state.worded = ()
-    cells = [c for c in cells_of(row) if sum(len(p.words) for p in c.label) <= LONGEST_LABEL]
+    cells = [c for c in cells_of(row) if _words_of(c.label) <= LONGEST_LABEL]
     if not cells:
         return
     pending, state.pending = state.pending, []
@@ -64,6 +65,11 @@ def read_values(page: Page, row: Sequence[TextLine], state: ReaderState, number:
         state.pending = pending
         if not pending and not state.heads:
             state.orphans = list(range(len(found) - len(cells), len(found)))
+
+
+def _words_of(label: Sequence[TextPiece]) -> int:
+    """How many words a label has; a remark in brackets is none of it."""
+    return len(re.sub(r"\([^()]*\)", " ", " ".join(p.text for p in label)).split())
 
 
 def _broken(above: TextPiece, label: TextPiece) -> bool:
