@@ -294,8 +294,6 @@ def looks_like_value(text: str) -> bool:
     if not readings:
         return False
     first = readings[0].numbers[0]
-    if not first.unit and re.fullmatch(r"(?:\s[A-Z]{1,4})+", text[first.end :]):
-        return False  # "8 SU": a designation
     if not first.unit and re.match(
         r"[.):]?\s+(?!(?:to|bis|up|each|per|pro|par|por)\b)(?:[^\W\d_]-)?[^\W\d_]{2,}", text[first.end :]
     ):
