@@ -103,3 +103,40 @@ def test_a_long_remark_in_brackets_makes_no_label_too_long(tmp_path: Path) -> No
     put(c, 460, 700, "496 mm")
     c.save()
     assert said(extract(ASKED, [tmp_path / "a.pdf"]))["Ground Clearance"][1] == 0.496
+
+
+def test_a_heading_over_a_bare_measure_names_the_thing_that_is_measured(tmp_path: Path) -> None:
+    asked = template(
+        wanted("Upperstructure Width", "length", "upperstructure width", "width of upper structure"),
+        wanted("Operating Weight", "mass", "operating weight", "total weight", "operating weight with bucket"),
+        wanted("Bucket Weight", "mass", "bucket weight"),
+    )
+    c = canvas(tmp_path / "a.pdf")
+    put(c, 60, 720, "UPPER STRUCTURE SCREENGUARD", bold=True)
+    put(c, 60, 700, "Width")
+    put(c, 200, 700, "1110 mm")
+    for x, text in ((200, "Total"), (260, "Tip")):
+        put(c, x, 600, text)
+    for x, text in ((200, "Weight"), (260, "Radius")):
+        put(c, x, 588, text)
+    for y, size in ((572, 1336), (558, 1336)):
+        put(c, 60, y, "DB Buckets")
+        put(c, 200, y, f"{size} kg")
+        put(c, 260, y, "1660 mm")
+    c.save()
+    found = extract(asked, [tmp_path / "a.pdf"])
+    assert not [s.name for s in found if s.status == "ok"]
+
+
+def test_a_labels_second_line_may_begin_with_a_number(tmp_path: Path) -> None:
+    c = canvas(tmp_path / "a.pdf")
+    for y in (720, 690, 660):
+        c.line(50, y, 400, y)
+    put(c, 60, 709, "Blade height for")
+    put(c, 60, 698, "2440 mm level bottom")
+    put(c, 60, 675, "Ground clearance")
+    for x, a, b in ((200, "8790 mm", "450 mm"), (300, "8380 mm", "460 mm")):
+        put(c, x, 709, a)
+        put(c, x, 675, b)
+    c.save()
+    assert all(s.value != 2.44 for s in extract(ASKED, [tmp_path / "a.pdf"]))

@@ -104,8 +104,17 @@ def _pieces_of(row: Sequence[TextLine]) -> tuple[list[TextPiece], _Kinds]:
     kinds = {p: kind_of(p) for p in pieces}
     if [kinds[p] for p in pieces[:2]] == ["value", "value"] and is_circumstance(pieces[0]):
         kinds[pieces[0]] = "text"
+    kinds |= {p: "text" for p in pieces if kinds[p] == "value" and _goes_on(p, pieces, kinds)}
     keys = _keys_of(pieces, kinds)
     return [p for p in pieces if p not in keys], kinds
+
+
+def _goes_on(piece: TextPiece, pieces: Sequence[TextPiece], kinds: _Kinds) -> bool:
+    """Whether a piece that begins with a number is the second line of a label: "Maximum depth cut for", and under it
+    "2440 mm level bottom"."""
+    flush = any(kinds[p] == "text" and abs(p.x0 - piece.x0) < 1 and p.box[3] <= piece.box[1] + 1 for p in pieces)
+    beside = any(kinds[p] == "value" and p.x0 > piece.x1 for p in pieces)
+    return flush and beside and len(words_beside_numbers(piece.bare, read(piece.bare))) > 1
 
 
 def _columns_of(values: Sequence[TextPiece]) -> list[list[TextPiece]]:
