@@ -237,55 +237,6 @@ def _is_between(heads: Sequence[TextPiece], box: Box) -> bool:
     return len(heads) > 1 and not level and not is_unit(heads[-1].bare) and min(middles) < middle < max(middles)
 
 
-def continues(found: Sequence[Statement], cells: Sequence[ValueCell]) -> bool:
-    """Whether values without a label stand under those of the statements before (their imperial line)."""
-    return all(_above(found, c) is not None for c in cells)
-
-
-def _above(found: Sequence[Statement], cell: ValueCell) -> int | None:
-    box = join_boxes(p.box for p in cell.values)
-    last = found[-1].row
-    for index in range(len(found) - 1, -1, -1):
-        statement = found[index]
-        if statement.row != last:
-            return None
-        under = statement.x0 < box[2] and box[0] < statement.box[2] and 0 <= box[1] - statement.box[3] < box[3] - box[1]
-        if under and _other_system(statement, cell):
-            return index
-    return None
-
-
-def _other_system(statement: Statement, cell: ValueCell) -> bool:
-    """Whether a value is in another system of measurement than the one above it."""
-    above = read(statement.text, unit=statement.unit)
-    below = read(" ".join(p.text for p in cell.values), unit=cell.unit or statement.unit)
-    if not above or not below or any(r.partner for r in above):
-        return False
-    first, second = above[-1].numbers[-1].printed, below[0].numbers[-1].printed
-    if first is None or second is None:
-        return False
-    return first.dimension == second.dimension and first.system != second.system
-
-
-def add_continuation(found: list[Statement], cells: Sequence[ValueCell]) -> None:
-    """Adds values to those right above them, of which they are the other system\'s."""
-    for cell in cells:
-        index = _above(found, cell)
-        if index is not None:
-            text = " ".join(p.text for p in cell.values)
-            statement = found[index]
-            first, second = statement.text, EXAMPLE.sub("", text).strip()
-            if cell.unit and cell.unit != statement.unit:
-                first, second = f"{first} {statement.unit}".strip(), f"{second} {cell.unit}"
-            found[index] = replace(
-                statement,
-                text=f"{first} {second}",
-                unit="" if cell.unit and cell.unit != statement.unit else statement.unit,
-                quote=f"{statement.quote} … {text}",
-                box=join_boxes([statement.box, *(p.box for p in cell.values)]),
-            )
-
-
 def _quote(
     page: Page, row: Sequence[TextLine], context: Sequence[TextPiece], cell: ValueCell, heads: Sequence[TextPiece]
 ) -> str:
