@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from dataclasses import replace
+from itertools import pairwise
 from pathlib import Path
 
 import pytest
@@ -140,3 +141,42 @@ def test_a_labels_second_line_may_begin_with_a_number(tmp_path: Path) -> None:
         put(c, x, 675, b)
     c.save()
     assert all(s.value != 2.44 for s in extract(ASKED, [tmp_path / "a.pdf"]))
+
+
+def test_a_list_in_a_frame_is_no_table(tmp_path: Path) -> None:
+    c = canvas(tmp_path / "a.pdf")
+    rows = ("Raise time 11.2 s", "Blade height 1.69 m", "Blade weight 4570 kg", "Capac. max. 36 %", "Power 52 kW")
+    for index, text in enumerate(rows):
+        y = 700 - 20 * index
+        c.rect(50, y - 6, 20, 20)
+        c.rect(70, y - 6, 300, 20)
+        put(c, 80, y, text)
+    c.save()
+    found = said(extract(ASKED, [tmp_path / "a.pdf"]))
+    assert found["Raise Time"] == ("ok", 11.2)
+    assert found["Blade Height"] == ("ok", 1.69)
+    assert found["Blade Weight"] == ("ok", 4570.0)
+
+
+@pytest.mark.parametrize("ruled", [True, False])
+def test_rows_that_end_in_the_number_that_they_begin_with(tmp_path: Path, ruled: bool) -> None:
+    c = canvas(tmp_path / "a.pdf")
+    rows = [("1.2", "Model", "FD100-8", "FD150E-8"), ("1.3", "Power Type", "Diesel", "Diesel")]
+    rows += [(f"2.{n}", f"Anything {n}", f"{300 + n} mm", f"{310 + n} mm") for n in range(1, 4)]
+    rows += [
+        ("3.1", "Blade height", "2800 mm", "3100 mm"),
+        ("3.1" if ruled else "3.2", "Ground clearance", "320 mm", "350 mm"),
+    ]
+    rows += [("4.1", "Blade weight", "12980 kg", "16570 kg"), ("4.2", "Raise time", "9 s", "11 s")]
+    for index, row in enumerate(rows):
+        y = 700 - 16 * index
+        for x, text in zip((60, 100, 240, 340, 440), (*row, row[0]), strict=True):
+            put(c, x, y, text)
+        if ruled:
+            for x0, x1 in pairwise((55, 95, 235, 335, 435, 475)):
+                c.rect(x0, y - 5, x1 - x0, 16)
+    c.save()
+    found = said(extract(ASKED, [tmp_path / "a.pdf"], config="FD150E-8"))
+    assert found["Blade Height"] == ("ok", 3.1)
+    assert found["Blade Weight"] == ("ok", 16570.0)
+    assert found["Raise Time"] == ("ok", 11.0)
