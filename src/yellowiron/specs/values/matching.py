@@ -328,7 +328,7 @@ def _match(asked_for: _Asked, claim: Claim, said: _Said) -> Match | None:
         if headed or words & lent:  # it may name another one's part: "lift arm cylinder", "Total weight" of "Buckets"
             named = words - explained - (frozenset() if headed else asked_for.words)
             rest |= {t for t in named if _is_others(t, asked_for, explained | words, claim, said)}
-    if frozenset() < label - NEUTRAL <= _MEASURES:  # the width of an "Upper protection screen" is no upperstructure's
+    if {t for t in label if len(t) > 1} <= _MEASURES:  # the width of an "Upper protection screen" is no structure's
         for words in (*said.contexts, section):
             rest |= {t for t in words - explained - _SAYS_NOTHING if words & lent and t.isalpha() and t not in KNOWN}
     worded = frozenset[str]().union(*(words for words in said.naming if not any(map(_is_number, words))))
