@@ -19,7 +19,7 @@ from yellowiron.specs.language.decimal_style import DecimalStyle, decimal_style
 from yellowiron.specs.layout.nearest import Near
 from yellowiron.specs.llm.agreement import Asked, agreed
 from yellowiron.specs.llm.page_reader import Reading, pages_of, read_pages
-from yellowiron.specs.machines import of_others, several
+from yellowiron.specs.machines import of_others, several, with_machines
 from yellowiron.specs.reader import MEMORY_MB, RESIDENT_MB, TIMEOUT_S, Sheet, check_file
 from yellowiron.specs.values.claims import Claim, claims_of, configured
 from yellowiron.specs.values.cross_check import second_reading, stands_in
@@ -181,7 +181,7 @@ def _numbered(sheet: Sheet, number: int) -> Sheet:
     """The sheet with its number among those read together in its statements."""
     return replace(
         sheet,
-        statements=tuple(replace(s, sheet=number) for s in sheet.statements),
+        statements=with_machines([replace(s, sheet=number) for s in sheet.statements], sheet.titles),
         near=tuple(replace(n, statement=replace(n.statement, sheet=number)) for n in sheet.near),
         again=_numbered(sheet.again, number) if sheet.again else None,
     )

@@ -4,10 +4,12 @@ from __future__ import annotations
 
 import re
 from collections.abc import Sequence
+from dataclasses import replace
 
 from yellowiron.specs.layout.rows.headings import body_size
+from yellowiron.specs.layout.statement import Statement
 from yellowiron.specs.pages.words import Page
-from yellowiron.specs.values.claims import split_phrases
+from yellowiron.specs.values.claims import names_model, split_phrases
 
 _DESIGNATION = re.compile(r"([A-Z]{1,4})-?[A-Z]{0,3}\d{2,5}[A-Z]{0,4}(?![A-Za-z\d])")
 """A model as it is printed: "GR-250N", also before the number of its sheet, "GR-250N-2-00102"."""
@@ -53,6 +55,32 @@ def several(titles: Sequence[frozenset[str]]) -> dict[int, str]:
         if apart and any(not _same(a, b) for a in sheets for b in sheets):
             return own
     return {}
+
+
+def with_machines(statements: Sequence[Statement], titles: Sequence[frozenset[str]]) -> tuple[Statement, ...]:
+    """The statements, those that no column holds for with the model that is meant: that of the nearest heading over
+    them which heads a column elsewhere, or that which their page's title names alone, as other pages' do others."""
+    models = {head for s in statements for head in s.column if names_model(head)}
+    pages = _titled_alone(titles)
+
+    def machine(statement: Statement) -> str:
+        headings = (*reversed(statement.context), statement.section)
+        return next((h for h in headings if h in models), pages.get(statement.page, ""))
+
+    return tuple(
+        s if s.column or s.variant or not (name := machine(s)) else replace(s, variant=(name,)) for s in statements
+    )
+
+
+def _titled_alone(titles: Sequence[frozenset[str]]) -> dict[int, str]:
+    """By page (1 = first) the model that its title names, where it names no other and another page likewise names one
+    of the same family."""
+    alone = {page: next(iter(names)) for page, names in enumerate(titles, start=1) if len(names) == 1}
+    return {
+        page: name
+        for page, name in alone.items()
+        if any(_family(one) == _family(name) and not _same(one, name) for one in alone.values())
+    }
 
 
 def _owners(titles: Sequence[frozenset[str]], families: set[str]) -> dict[int, frozenset[str]]:

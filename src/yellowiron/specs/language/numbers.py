@@ -28,7 +28,7 @@ _OF_NEXT = re.compile(
 """What stands before a number and says which it is, though no separator parts it from the number before: "Min. 3 m to
 Max. 7 m", "Retracted: 2 m Extended: 5 m", "JS145W: 12.6 rpm JS160W: 8.9 rpm"."""
 _NAMED = re.compile(r"[:：]\s*$")
-_JUNK = re.compile(r"[\s:=~≈<>≤≥Øø⌀•.·]+")
+_JUNK = re.compile(r"[\s:=~≈<>≤≥Øø⌀•●.·]+")
 
 
 @dataclass(frozen=True)

@@ -101,13 +101,18 @@ def printed_units() -> tuple[tuple[PrintedUnit, str], ...]:
 def unit_pattern() -> str:
     """A regular expression for any unit's spelling, not followed by a letter. A digit may be glued to it; then it is no
     exponent: "1.007 m39.6 in" is metres and inches."""
-    spellings = [s for _, pattern in printed_units() for s in _alternatives(pattern)]
+    spellings = [_any_case(s) for _, pattern in printed_units() for s in _alternatives(pattern)]
     spellings = [re.sub(r"\(\?:([23])\|", r"(?:\1(?![.,]?\\d)|", s) for s in spellings]
     return (
         "(?:"
         + "|".join(sorted(spellings, key=len, reverse=True))
         + r")(?:(?<![A-Za-z])|(?![A-Za-zµÀ-ÖØ-öø-ɏ]))(?! ?[CF]\b)"
     )
+
+
+def _any_case(spelling: str) -> str:
+    """A unit that is written out, in any case ("Seconds", "BAR"); of a sign the case tells which it is."""
+    return f"(?i:{spelling})" if re.fullmatch(r"[a-z]{4}[a-z?]*", spelling) else spelling
 
 
 def _alternatives(pattern: str) -> list[str]:

@@ -19,7 +19,15 @@ from yellowiron.specs.layout.rows.legends import key_legend, labelled, spelled
 from yellowiron.specs.layout.rows.lines import TextLine, blocks_of, lines_of
 from yellowiron.specs.layout.rows.margin import without_keys
 from yellowiron.specs.layout.rows.row_reader import read_block
-from yellowiron.specs.layout.statement import COUNTED, Statement, is_unit, kind_of, unit_noted, unit_said
+from yellowiron.specs.layout.statement import (
+    COUNTED,
+    Statement,
+    is_unit,
+    kind_of,
+    unit_noted,
+    unit_said,
+    without_last_keys,
+)
 from yellowiron.specs.pages.strokes import Box
 from yellowiron.specs.pages.words import Page, Word
 
@@ -71,7 +79,7 @@ def statements_of(page: Page) -> list[Statement]:
         above = heads_above(free, grid.box, columns_of(grid), boxes)
         found.extend(read_grid(page, filled.grid, row, title, above))
         row += grid.rows + 1
-    return _in_noted_unit(labelled(found, keys), lines)
+    return _in_noted_unit(without_last_keys(labelled(found, keys)), lines)
 
 
 _LEAST_NOTED = 100.0

@@ -5,7 +5,7 @@ from __future__ import annotations
 import functools
 import re
 from collections.abc import Iterable, Sequence
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from itertools import pairwise
 
 from yellowiron.specs.language.numbers import Reading, read
@@ -145,7 +145,7 @@ _AT_RPM = re.compile(r"(?<=[\w)])\s*@\s*(?:\d[\d.,]*\s?)?(?:rpm|r/min|min-1|U/mi
 """The speed at which the numbers of a column or row hold: "kW (hp) @ 2100 rpm", "kW (hp) @ rpm"."""
 _UNIT_PAIR = re.compile(r"(\S*[^\s(/\[|])\s*[(/\[|]\s*([^()\[\]]+?)\s*[)\]]?")
 _KEY = re.compile(
-    r"[(\[]?(?:[a-zα-ω]\d{0,2}(?:/[a-zα-ω]\d{0,2})+|[α-ω]|"
+    r"[(\[]?(?:[a-zα-ωß∂]\d{0,2}(?:[/,][a-zα-ωß∂]\d{0,2})+|[α-ω]|"
     r"[A-Z]{1,2}\d{0,2}|[a-z]\d{0,2}|\d{1,2}(?:\.\d{1,2})*|[\u2460-\u24ff])[′'\"]?[)\].:]{0,2}"
 )
 _INDEX = re.compile(r"(?<![^\W\d_])([^\W\d_])\s(\d{1,2})(?:\s(?=/)|(?=/)|$)")
@@ -271,7 +271,7 @@ def kind_of(piece: TextPiece) -> str:
 _VALUE_START = re.compile(
     r"^(?:(?:appr(?:ox)?\.?|approximately|about|abt\.?|circa|ca?\.|ca|etwa|env(?:iron)?\.?|aprox(?:imadamente)?\.?|"
     r"max(?:imum|imal)?\.?|min(?:imum|imal)?\.?|up to|bis(?: zu)?|jusqu'à|hasta|[约約]|およそ|大约|最大|最小|最高)\s*)*"
-    r"[(\[]?\s*(?:\+/[-–−]|[<>≤≥~≈±Øø⌀+\-–−])*\s*(?:[\d½¼¾⅛⅜⅝⅞]|[.,]\d)",
+    r"[(\[]?\s*(?:\+/[-–−]|[<>≤≥~≈±Øø⌀●+\-–−])*\s*(?:[\d½¼¾⅛⅜⅝⅞]|[.,]\d)",
     re.IGNORECASE,
 )
 _NOT_A_VALUE = re.compile(
@@ -294,7 +294,9 @@ def looks_like_value(text: str) -> bool:
     if not readings:
         return False
     first = readings[0].numbers[0]
-    if not first.unit and re.match(r"[.):]?\s+(?!(?:to|bis|up|each|per|pro|par|por)\b)[^\W\d_]{2,}", text[first.end :]):
+    if not first.unit and re.match(
+        r"[.):]?\s+(?!(?:to|bis|up|each|per|pro|par|por)\b)(?:[^\W\d_]-)?[^\W\d_]{2,}", text[first.end :]
+    ):
         return False  # "10 Wheelbase", "4.2 No. of shoes": a drawing's key or an outline's number, and a label
     if re.match(r"[\u3040-\u30ff\u3400-\u9fff]{4}", text[first.end :]):
         return False  # "45°卸料时斗刃高度": a label that begins with its circumstance
@@ -341,10 +343,25 @@ def split_inline(text: str) -> tuple[str, str]:
     return "", ""
 
 
+_LAST_KEY = re.compile(r"^(.*[^\W\d_]{3,}.*?)\s([A-Z])[′'’\"]?$")
+
+
+def without_last_keys(statements: Sequence[Statement]) -> list[Statement]:
+    """The statements of a page without the keys of its drawings behind their labels ("Tail swing radius F"), where
+    three or more labels end in letters that differ."""
+    ends = {s.label: m for s in statements if (m := _LAST_KEY.match(s.label))}
+    if len({m.group(2) for m in ends.values()}) < _FEWEST_KEYS:
+        return list(statements)
+    return [replace(s, label=ends[s.label].group(1)) if s.label in ends else s for s in statements]
+
+
+_FEWEST_KEYS = 3
+
+
 def without_key(label: str) -> str:
     """A label without its drawing's letter key: "B Hinge pin height", "f. Hinge pin height" → "Hinge pin height"."""
     match = re.match(
-        r"^\(?(?:[A-Z]{1,2}[′'\"]?|[a-zα-ω](?=\d?[.):]*\s+[A-ZÀ-Ý])\d?|\d{1,2}(?:\.\d{1,2})*)[.):]*\s+(?=[A-ZÀ-Ý(][^\W\d_]+|[\u3040-\u30ff\u3400-\u9fff])(.+)$",
+        r"^\(?(?:[A-Z]{1,2}[′'\"]?|[a-zα-ω](?=\d?[.):]*\s+[A-ZÀ-Ý])\d?|\d{1,2}(?:\.\d{1,2})*)[.):]*\s+(?=[A-ZÀ-Ý(](?:-[^\W\d_])?[^\W\d_]+|[\u3040-\u30ff\u3400-\u9fff])(.+)$",
         label,
     )
     return match.group(1) if match else label

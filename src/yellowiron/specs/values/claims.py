@@ -403,8 +403,13 @@ def names_model(label: str) -> bool:
     return _MODEL.fullmatch(label.strip()) is not None and not any(q.printed for r in read(label) for q in r.numbers)
 
 
+_SEE = re.compile(r"\((?:see|siehe|voir|véase|ver)\b[^()]*\)", re.IGNORECASE)
+
+
 def _without_conditions(label: str) -> str:
-    """A label without its circumstances in numbers with units: "Pump flow at 2,000 rpm" → "Pump flow"."""
+    """A label without its circumstances in numbers with units: "Pump flow at 2,000 rpm" → "Pump flow"; and without what
+    it sends the reader to: "(see tire chart)"."""
+    label = _SEE.sub(" ", label)
     for reading in reversed(read(label)):
         first, last = reading.numbers[0], reading.numbers[-1]
         if reading.condition and first.printed is not None and first.dimension != "angle":

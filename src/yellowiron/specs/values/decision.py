@@ -205,10 +205,14 @@ def _configured(matches: Sequence[Match], sheets: Sheets, config: str) -> list[M
                 [m for m, is_one in zip(kept, parts, strict=True) if is_one],
                 [h for h, p in zip(heads, parts, strict=True) if p],
             )
-        if any(words in own for own in heads):
-            kept = [
-                m for m, own in zip(kept, heads, strict=True) if words in own or not any(words < head for head in own)
-            ]
+        # "8 SU" says all that "8 SU LGP" says but one word: the latter is another one's.
+        saying = [{frozenset(head) for head in own if words <= head} for own in heads]
+        every = {head for own in saying for head in own}
+        kept = [
+            m
+            for m, own in zip(kept, saying, strict=True)
+            if not own or any(not any(other < head for other in every) for head in own)
+        ]
     return kept
 
 

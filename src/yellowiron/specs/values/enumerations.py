@@ -24,6 +24,8 @@ _INITIALS = {"l": "length", "w": "width", "h": "height", "t": "thickness"}
 _FORK_SIZES = re.compile(r"(?<!\S)s\s?/\s?e\s?/\s?l(?!\S)")
 """What makers call length × width × height, and VDI 2198 a fork's measures."""
 _TIGHT = re.compile(r"\s?(?<![^\W\d])L\s?[x×*]\s?W\s?[x×*]\s?H(?![^\W\d])", re.IGNORECASE)
+_LISTED = re.compile(r"\(([^\W\d][^(),]*(?:,\s*[^\W\d][^(),]*)+)\)")
+"""Names in brackets with commas between them: "Forks (thickness, width, length)"."""
 _OFF = re.compile(r"\((?:without|w/o|excl\S*|less) forks?\)", re.IGNORECASE)
 """What is left off for the length says nothing of the width and the height."""
 _NAME = r"(?:(?:length|longueur|longitud|di[aá]m\w+|diamètre) (?:of|de|du|del) \S+|\S+(?:\s+(?:diameter|dia\.?))?)"
@@ -36,7 +38,7 @@ def enumerated(label: str, count: int) -> list[str]:
     ("Lift cylinders – bore x stroke", 2) → ["Lift cylinders bore", "Lift cylinders stroke"]; [] if it lists others.
     """
     bare = _FORK_SIZES.sub("s × e × l", COUNTED_PARTS.sub(" ", label)).strip()
-    bare = _TIGHT.sub(" L × W × H", bare)
+    bare = _LISTED.sub(lambda m: f"({m.group(1).replace(',', ' × ')})", _TIGHT.sub(" L × W × H", bare))
     parts = [p.strip(" ()[]") for p in _CROSS.split(bare)]
     if len(parts) != count or not all(re.search(r"[^\W\d_]", p) for p in parts):
         return []

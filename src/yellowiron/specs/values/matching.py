@@ -34,6 +34,8 @@ _EXTREME = {"maximum"}
 """Says of a label no more than makers mean without it; a value of which both are asked forbids it."""
 _PLAIN = [{"height"}, {"length"}, {"width"}, {"depth"}]
 """What anything has: "maximum" beside it tells no more than it does alone."""
+_MEASURES = {"height", "length", "width", "depth", "diameter", "weight"}
+_SAYS_NOTHING = NEUTRAL | GENERAL | HARMLESS | VAGUE | TELLING
 _WHOLE = {"overall"}
 """Says of a part no more than makers mean without it: the overall width of a bucket is its width."""
 _RATED = {"flow", "pressure", "force", "torque"}
@@ -72,9 +74,9 @@ class Match:
 def match(claims: Sequence[Claim], wanted: Sequence[Wanted]) -> dict[str, list[Match]]:
     """The matches by wanted name. A claim that one wanted value explains better does not count for another."""
     found: dict[str, list[Match]] = {w.name: [] for w in wanted}
-    by_dimension: dict[str, tuple[_Asked, ...]] = {}
-    for group in _by_dimension(wanted).values():
-        by_dimension[group[0].dimension] = _asked(tuple(group))
+    by_dimension = {
+        d: _asked(tuple(w for w in wanted if w.dimension == d)) for d in {w.dimension: None for w in wanted}
+    }
     known: dict[tuple[object, ...], list[Match]] = {}  # the cells of a row say the same
     for claim in claims:
         said, dimension = _said(claim), claim.quantity.dimension
@@ -175,13 +177,6 @@ def _possible(found: Match) -> bool:
     scale = quantity.si_value / quantity.value if quantity.value else 1.0
     readings = [quantity.si_value, *([quantity.other * scale] if quantity.other is not None else [])]
     return any(usual(wanted, reading) for reading in readings)
-
-
-def _by_dimension(wanted: Sequence[Wanted]) -> dict[str, list[Wanted]]:
-    groups: dict[str, list[Wanted]] = {}
-    for one in wanted:
-        groups.setdefault(one.dimension, []).append(one)
-    return groups
 
 
 def _specific(found: Match) -> int:
@@ -316,6 +311,8 @@ def _match(asked_for: _Asked, claim: Claim, said: _Said) -> Match | None:
         return None
     explained, from_head, borrowed, best = found.words, found.from_head, found.borrowed, found.phrase
     primary = (label if explained & label else set()) | (head if from_head else set()) or context | section
+    if primary <= _EXTREME:  # "Total retardation power", and beside it "721 kW Maximum": what it is the most of counts
+        primary = primary | (said.contexts[-1] if said.contexts else section)
     # A word of the value's own name makes the label mean nothing else.
     left = {t for t in primary - explained - _EXTREME - asked_for.name if not _is_number(t)}
     left = {t for t in left if t not in NEUTRAL or _is_telling(t, asked_for, explained | left, claim, said, KNOWN)}
@@ -326,10 +323,14 @@ def _match(asked_for: _Asked, claim: Claim, said: _Said) -> Match | None:
     known = frozenset() if borrowed else KNOWN  # a heading that must help names other properties too
     rest = {t for t in left if _is_telling(t, asked_for, explained | left, claim, said, known)}
     lent = explained - label - head
-    for words in said.contexts:  # a sub-heading that helps may name another one's part: "lift arm cylinder"
-        if words & lent:
-            named = words - explained - asked_for.words
+    headed = bool(from_head) and not explained & label
+    for words in (label, *said.contexts, section) if headed else said.contexts:
+        if headed or words & lent:  # it may name another one's part: "lift arm cylinder", "Total weight" of "Buckets"
+            named = words - explained - (frozenset() if headed else asked_for.words)
             rest |= {t for t in named if _is_others(t, asked_for, explained | words, claim, said)}
+    if {t for t in label if len(t) > 1} <= _MEASURES:  # the width of an "Upper protection screen" is no structure's
+        for words in (*said.contexts, section):
+            rest |= {t for t in words - explained - _SAYS_NOTHING if words & lent and t.isalpha() and t not in KNOWN}
     worded = frozenset[str]().union(*(words for words in said.naming if not any(map(_is_number, words))))
     if ((label | context | section | worded) - explained) & REVERSING:  # the head "VS 135" is a model
         return None

@@ -199,7 +199,7 @@ def _headed(statement: Statement, above: Sequence[TextPiece]) -> Statement:
 
 def _without_keys(grid: TableGrid) -> TableGrid:
     """The grid with the columns of a drawing's keys emptied: letters, symbols or outline numbers, no two alike, beside
-    a column of words. Among many letters some have two ("Wa"), or stand in two rows."""
+    a column of words. Among many some letters have two ("Wa"), some stand in two rows, or beside no words."""
     keys: set[Cell] = set()
     for column in range(grid.columns - 1):
         cells = [c for c in grid.cells if c.columns[0] == column and c.lines]
@@ -210,13 +210,18 @@ def _without_keys(grid: TableGrid) -> TableGrid:
             own = [c for c in cells if c in own or _SYMBOL.fullmatch(c.text.replace(" ", ""))]
         twice = len(texts) - len(set(texts))
         few = len(own) // MANY
-        if len(own) < 3 or len(own) < len(cells) - 1 or twice > (0 if numbers else few) or all(map(is_unit, texts)):
+        if len(own) < 3 or len(own) < len(cells) - 1 or twice > few or all(map(is_unit, texts)):
             continue
         counted = len(own) >= MANY and counting(texts, 0.9)
         placed = counted or all(_begins(grid, c) for c in own)
-        if numbers and not (placed and ascending(texts) and all(_worded(grid, c, counted=counted) for c in own)):
+        bare = sum(not _worded(grid, c, counted=counted) for c in own)
+        if numbers and not (placed and ascending(list(dict.fromkeys(texts))) and bare <= few):
             continue
         keys.update(c for c in own if not _LISTED.fullmatch(c.text))  # "s/e/l" says what its three values are
+    numbers_of = {c.rows: c.text for c in keys if c.text[0].isdigit()}
+    again = [c for c in grid.cells if c not in keys and c.text and numbers_of.get(c.rows) == c.text]
+    if len(again) >= MANY and len({c.columns for c in again}) == 1:  # "1.9 | Wheelbase | 2800 | 1.9"
+        keys.update(again)
     return grid.emptied(keys) if keys else grid
 
 

@@ -104,8 +104,17 @@ def _pieces_of(row: Sequence[TextLine]) -> tuple[list[TextPiece], _Kinds]:
     kinds = {p: kind_of(p) for p in pieces}
     if [kinds[p] for p in pieces[:2]] == ["value", "value"] and is_circumstance(pieces[0]):
         kinds[pieces[0]] = "text"
+    kinds |= {p: "text" for p in pieces if kinds[p] == "value" and _goes_on(p, pieces, kinds)}
     keys = _keys_of(pieces, kinds)
     return [p for p in pieces if p not in keys], kinds
+
+
+def _goes_on(piece: TextPiece, pieces: Sequence[TextPiece], kinds: _Kinds) -> bool:
+    """Whether a piece that begins with a number is the second line of a label: "Maximum depth cut for", and under it
+    "2440 mm level bottom"."""
+    flush = any(kinds[p] == "text" and abs(p.x0 - piece.x0) < 1 and p.box[3] <= piece.box[1] + 1 for p in pieces)
+    beside = any(kinds[p] == "value" and p.x0 > piece.x1 for p in pieces)
+    return flush and beside and len(words_beside_numbers(piece.bare, read(piece.bare))) > 1
 
 
 def _columns_of(values: Sequence[TextPiece]) -> list[list[TextPiece]]:
@@ -226,55 +235,6 @@ def _is_between(heads: Sequence[TextPiece], box: Box) -> bool:
         for h, m in zip(heads, middles, strict=True)
     )
     return len(heads) > 1 and not level and not is_unit(heads[-1].bare) and min(middles) < middle < max(middles)
-
-
-def continues(found: Sequence[Statement], cells: Sequence[ValueCell]) -> bool:
-    """Whether values without a label stand under those of the statements before (their imperial line)."""
-    return all(_above(found, c) is not None for c in cells)
-
-
-def _above(found: Sequence[Statement], cell: ValueCell) -> int | None:
-    box = join_boxes(p.box for p in cell.values)
-    last = found[-1].row
-    for index in range(len(found) - 1, -1, -1):
-        statement = found[index]
-        if statement.row != last:
-            return None
-        under = statement.x0 < box[2] and box[0] < statement.box[2] and 0 <= box[1] - statement.box[3] < box[3] - box[1]
-        if under and _other_system(statement, cell):
-            return index
-    return None
-
-
-def _other_system(statement: Statement, cell: ValueCell) -> bool:
-    """Whether a value is in another system of measurement than the one above it."""
-    above = read(statement.text, unit=statement.unit)
-    below = read(" ".join(p.text for p in cell.values), unit=cell.unit or statement.unit)
-    if not above or not below or any(r.partner for r in above):
-        return False
-    first, second = above[-1].numbers[-1].printed, below[0].numbers[-1].printed
-    if first is None or second is None:
-        return False
-    return first.dimension == second.dimension and first.system != second.system
-
-
-def add_continuation(found: list[Statement], cells: Sequence[ValueCell]) -> None:
-    """Adds values to those right above them, of which they are the other system\'s."""
-    for cell in cells:
-        index = _above(found, cell)
-        if index is not None:
-            text = " ".join(p.text for p in cell.values)
-            statement = found[index]
-            first, second = statement.text, EXAMPLE.sub("", text).strip()
-            if cell.unit and cell.unit != statement.unit:
-                first, second = f"{first} {statement.unit}".strip(), f"{second} {cell.unit}"
-            found[index] = replace(
-                statement,
-                text=f"{first} {second}",
-                unit="" if cell.unit and cell.unit != statement.unit else statement.unit,
-                quote=f"{statement.quote} … {text}",
-                box=join_boxes([statement.box, *(p.box for p in cell.values)]),
-            )
 
 
 def _quote(

@@ -41,10 +41,23 @@ def without_keys(lines: Sequence[TextLine]) -> list[TextLine]:
             and _counts([piece for piece, _ in column if piece.bare[0].isdigit()], lines)
         ):
             keys.update(piece for piece, beside in column if beside)
+    again = [line.pieces[-1] for line in lines if _repeats(line)]
+    if len(again) >= _FEWEST_REPEATED:
+        keys.update(again)
     if not keys:
         return list(lines)
     kept = [tuple(p for p in line.pieces if p not in keys) for line in lines]
     return [TextLine(pieces) for pieces in kept if pieces]
+
+
+_FEWEST_REPEATED = 3
+"""Rows that end in the number that they begin with."""
+
+
+def _repeats(line: TextLine) -> bool:
+    """Whether a row ends in the outline's number that it begins with: "1.9   Wheelbase   2800   3100   1.9"."""
+    first, last = line.pieces[0].bare, line.pieces[-1].bare
+    return len(line.pieces) > 2 and first == last and first[0].isdigit() and is_key(first)
 
 
 def _key_columns(lines: Sequence[TextLine]) -> list[list[tuple[TextPiece, bool]]]:

@@ -10,7 +10,7 @@ from yellowiron.specs.language.numbers import read
 from yellowiron.specs.language.units import printed_unit
 from yellowiron.specs.language.vocabulary import has_cjk
 from yellowiron.specs.layout.rows.lines import TextLine
-from yellowiron.specs.layout.statement import EXAMPLE, Statement, join_boxes
+from yellowiron.specs.layout.statement import EXAMPLE, Statement, join_boxes, split_inline
 from yellowiron.specs.pages.words import Word
 
 _END = re.compile(r"[.;!?](?=\s|$)|[。；！？]")
@@ -29,6 +29,8 @@ _WORD = re.compile(r"[^\W\d_]{3,}")
 _NEXT_IN_LIST = re.compile(r"[^\W\d][)\]]?\s*[,，]\s*$|\d[)\]]\s*,\s*$")
 _NAMED_BEHIND = re.compile(r"\s*[^\W\d_]{3,}")
 _BROKEN_WORD = re.compile(r"[^\W\d_][-–\u2010]$")
+_FEWEST_ROWS = 4
+"""Lines that make a list."""
 _LONGEST = 16
 """Words before a value; more are about something else."""
 _CIRCUMSTANCE = re.compile(
@@ -66,7 +68,16 @@ def _follows(last: TextLine, line: TextLine) -> bool:
     )
 
 
+def _is_list(lines: Sequence[TextLine]) -> bool:
+    """Whether most lines are each a name and its value: "Overall width 2.54 m", and under it the next."""
+    texts = [line.pieces[0].bare for line in lines]
+    rows = sum(text[:1].isupper() and bool(split_inline(text)[0]) for text in texts)
+    return rows >= _FEWEST_ROWS and 2 * rows >= len(lines)
+
+
 def _is_running(lines: Sequence[TextLine]) -> bool:
+    if _is_list(lines):
+        return False
     if any(_breaks_a_quantity(above, below) for above, below in pairwise(lines)):
         return True
     text, _ = _text_of(lines)

@@ -119,7 +119,7 @@ def _read_row(
     column: TextColumn, row: Sequence[TextLine], state: ReaderState, number: int, found: list[Statement]
 ) -> None:
     pieces = [p for line in row for p in line.pieces]
-    kinds = [kind_of(p) for p in pieces]
+    kinds = ["text"] * len(pieces) if _are_designations(pieces) else [kind_of(p) for p in pieces]
     if _heads_a_section(column, pieces, kinds):
         heading = column.heading(max(line.bottom for line in row), pieces[0].text)
         state.open_section(heading, tuple(pieces[1:]))
@@ -140,6 +140,15 @@ def _read_row(
     state.orphans = []
     read_values(column.page, row, state, number, found)
     state.data_since_heads = True
+
+
+_DESIGNATION = re.compile(r"\d{1,3}(?:\s[A-Z]{1,4})+")
+
+
+def _are_designations(pieces: Sequence[TextPiece]) -> bool:
+    """Whether a row names columns by numbers with letters: "Blade   8 SU   8 U   8 SU LGP"; "24 V" is no name."""
+    names = [p.bare for p in pieces[1:] if _DESIGNATION.fullmatch(p.bare)]
+    return 1 < len(names) == len(pieces) - 1 and any(re.search(r"[A-Z]{2}", name) for name in names)
 
 
 def _captioned(above: Sequence[TextLine], row: Sequence[TextLine], following: Sequence[Sequence[TextLine]]) -> bool:

@@ -2,20 +2,18 @@
 
 from __future__ import annotations
 
+import re
 from collections.abc import Sequence
 from dataclasses import replace
 
-from yellowiron.specs.language.vocabulary import has_cjk
 from yellowiron.specs.layout.rows.cells import (
     ValueCell,
-    add_continuation,
     cells_of,
-    continues,
     heads_over,
     statement_of,
 )
 from yellowiron.specs.layout.rows.lines import TextLine
-from yellowiron.specs.layout.rows.reader_state import ReaderState, stacked
+from yellowiron.specs.layout.rows.reader_state import ReaderState
 from yellowiron.specs.layout.statement import (
     COUNTED,
     EXAMPLE,
@@ -33,17 +31,11 @@ from yellowiron.specs.pages.words import Page
 def read_values(page: Page, row: Sequence[TextLine], state: ReaderState, number: int, found: list[Statement]) -> None:
     """Adds the statements of a row with values, `number` theirs, to those found above it."""
     state.worded = ()
-    cells = [c for c in cells_of(row) if sum(len(p.words) for p in c.label) <= LONGEST_LABEL]
+    cells = [c for c in cells_of(row) if _words_of(c.label) <= LONGEST_LABEL]
     if not cells:
         return
     pending, state.pending = state.pending, []
-    if pending and cells[0].label and _broken(pending[-1], cells[0].label[0]):
-        cells = [replace(c, label=[pending[-1], *c.label]) if c.label is cells[0].label else c for c in cells]
-        pending = pending[:-1]
     has_label = any(c.label for c in cells)
-    if not has_label and not pending and found and continues(found, cells):
-        add_continuation(found, cells)
-        return
     _end_heads(row, cells, state)
     _keep_sub_heading(cells, pending, state)
     context = [*state.context, *(p for p in pending if p not in state.context)]
@@ -66,9 +58,9 @@ def read_values(page: Page, row: Sequence[TextLine], state: ReaderState, number:
             state.orphans = list(range(len(found) - len(cells), len(found)))
 
 
-def _broken(above: TextPiece, label: TextPiece) -> bool:
-    """Whether a label of a script without spaces is broken over two lines, perhaps within a word."""
-    return stacked(above, label) and abs(above.x0 - label.x0) < 1 and has_cjk(above.text)
+def _words_of(label: Sequence[TextPiece]) -> int:
+    """How many words a label has; a remark in brackets is none of it."""
+    return len(re.sub(r"\([^()]*\)", " ", " ".join(p.text for p in label)).split())
 
 
 def _keep_sub_heading(cells: Sequence[ValueCell], pending: Sequence[TextPiece], state: ReaderState) -> None:
