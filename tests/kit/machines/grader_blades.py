@@ -40,7 +40,6 @@ class GraderBlade(SteeredChassis):
     circle_x: float
     saddle_z: float
     gimbals: bool
-    flat_rails: bool
     beamed: bool
 
     # ---- pieces ----
@@ -82,7 +81,7 @@ class GraderBlade(SteeredChassis):
     ) -> None:
         """Two plates beside a cylinder's eye."""
         for d in (1, -1):
-            circles: list[tuple[float, ...]] = [(*eye, 1.7 * self.pin_r / self.s), *feet]
+            circles: list[tuple[float, ...]] = [(*eye, 1.6 * self.pin_r / self.s), *feet]
             self.slab(name, body, way, at + d * self.lug, circles, eye)
 
     def pinned(self, role: str, body: str, way: str, eye: tuple[float, float], low: float, high: float) -> None:
@@ -138,8 +137,8 @@ class GraderBlade(SteeredChassis):
                 shape, reach = self.ball_eye(f"{name}_{k}", radius, 2 * (outer, rod_r)[k])
                 eyes.append((shape, square, reach))
             else:
-                reach = 1.8 * self.pin_r
-                flat = around((0, 0, reach), (reach, reach, 0), (reach, -reach, 0))
+                round_r, reach = 1.8 * self.pin_r, 2.2 * self.pin_r
+                flat = around((0, 0, round_r), (reach, 0.8 * round_r, 0), (reach, -0.8 * round_r, 0))
                 eyes.append((plate(f"{name}_eye", flat, self.eye_w, [(0, 0, self.bore_r)]), axis, reach))
         first = -above if collar else eyes[0][2]
         last = eyes[1][2]
@@ -204,18 +203,20 @@ class GraderBlade(SteeredChassis):
         s, e, m, body, x, z = self.s, self.e / self.s, self.m, "saddle", self.saddle_x, self.saddle_z
         m.pose = turn_about_x(self.spot(0, 0, z), self.hole)
         y, high = self.foot_y, z + 0.06
-        inner = y - 0.15 if self.gimbals else y - 0.16
-        pieces = [self.slabbed("saddle_arms", "x", x, [(0, z, 0.085), (inner - 0.02, high, 0.06),
-                                                       (0.02 - inner, high, 0.06)], (0, z), thick=0.12)]  # fmt: skip
-        found, way = {}, self.turned(Z)
+        inner = y - 0.16
+        reach = inner - (0.01 if self.gimbals else 0.12)
+        pieces = [self.slabbed("saddle_arms", "x", x, [(0, z, 0.085), (reach, high, 0.06), (-reach, high, 0.06)],
+                               (0, z), thick=0.12)]  # fmt: skip
+        found, way, shank = {}, self.turned(Z), 0.45 * self.ball_r / s
         for side, letter in SIDES:
             at = self.spot(x, side * y, high)
             role = f"blade_lift_cylinder_barrel_{letter}_pin"
             if self.gimbals:
                 pieces.append((self.ring(0.105 * s, 0.16 * s, 0.06 * s), place(at, Z)))
             else:
-                pieces.append((box("pad", 0.12 * s, 0.12 * s, 0.12 * s), place(self.spot(x, side * inner, high), Z, X)))
-                self.stud(role, body, at, side * Y, self.ball_r, (y - inner - 0.06) * s)
+                corners: list[tuple[float, ...]] = [(x + a, high + b) for a in (0.06, -0.06) for b in (0.06, -0.06)]
+                pieces.append(self.slabbed("pad", "y", side * inner, corners, (x, high, shank), thick=0.12))
+                self.stud(role, body, at, side * Y, self.ball_r, (y - inner + 0.06) * s)
             found[letter] = (self.world(x, side * y, high), way if self.gimbals else self.turned(Y))
         casting = merged("saddle_casting", *pieces)
         if self.gimbals and solids.HOLLOW:
@@ -229,9 +230,9 @@ class GraderBlade(SteeredChassis):
         low, high_x = x + 0.06 - e, ahead - 0.5 * self.t / s + e
         self.block("arm spacer", body, (low, -0.38, z - 0.02), (high_x, -0.26, z + 0.08))
         cy, cz = self.centre_foot
-        self.slab("centre shift arm", body, "x", ahead, [(-0.3, z + 0.03, 0.05), (cy, cz, 0.05)])
+        self.slab("centre shift arm", body, "x", ahead, [(-0.3, z + 0.03, 0.05), (cy, cz, 0.05)], (cy, cz, shank))
         self.stud("centre_shift_cylinder_barrel_pin", body, self.spot(self.centre_x, cy, cz), X, self.ball_r,
-                  0.1 * s - 0.5 * self.t)  # fmt: skip
+                  0.1 * s + 0.5 * self.t)  # fmt: skip
         found["centre"] = (self.world(self.centre_x, cy, cz), self.turned(X))
         m.pose = np.eye(4)
         return found
@@ -249,8 +250,8 @@ class GraderBlade(SteeredChassis):
         self.block("nose block", body, (tail - 0.16, -0.13, nz - 0.1), (tail + e, 0.13, nz + 0.1))
         front, half = c + 0.72, 0.58
         if self.beamed:
-            self.slab("drawbar beam", body, "y", 0.0, [(tail - 0.16 + e, nz - 0.08), (tail - 0.16 + e, nz + 0.08),
-                      (front - 0.2, top), (front - 0.2, top + 0.16)], thick=0.22)  # fmt: skip
+            self.slab("drawbar beam", body, "y", 0.0, [(tail - 0.16 + e, top), (tail - 0.16 + e, nz + 0.09),
+                      (front - 0.25, top), (front - 0.25, top + 0.08)], thick=0.22)  # fmt: skip
         else:
             for side, _ in SIDES:
                 self.slab("drawbar arm", body, "z", top + 0.05, [
@@ -259,7 +260,7 @@ class GraderBlade(SteeredChassis):
         inner = self.ring_r - 0.13
         self.slab("table", body, "z", 0.5 * (top + low), [(c - 0.62, half), (c - 0.62, -half), (front, half),
                   (front, -half)], (c, 0.0, 0.3), thick=top - low)  # fmt: skip
-        under = low - 0.115
+        under = low - 0.125
         guide = tube("guide", inner * s - self.clearance, (inner - 0.07) * s, (low - under) * s)
         m.add("guide", "circle_bearing", body, guide, place(self.spot(c, 0, under), Z))
         m.add("retainer", body, body, tube("retainer", (inner + 0.025) * s, (inner - 0.07) * s, 0.03 * s),
@@ -267,15 +268,17 @@ class GraderBlade(SteeredChassis):
         motor = tube("circle_motor", 0.09 * s, 0.0, 0.2 * s)
         m.add("circle motor", body, body, motor, place(self.spot(c - 0.5, 0.3, top), Z))
         found, r, z, x = {}, self.ball_r, top + 0.075, c + self.lift_x
+        shank = 0.45 * r / s
         for side, letter in SIDES:
-            a, b = sorted((side * 0.42, side * (half + 0.02)))
-            self.block("lift bracket", body, (x - 0.06, a, top - e), (x + 0.06, b, top + 0.14))
+            corners: list[tuple[float, ...]] = [(x + d, up) for d in (0.06, -0.06) for up in (top - e, top + 0.14)]
+            self.slab("lift bracket", body, "y", side * (half - 0.04), corners, (x, z, shank), thick=0.12)
             y = half + 0.02 + 0.14
-            self.stud(f"blade_lift_piston_rod_{letter}_pin", body, self.spot(x, side * y, z), side * Y, r, 0.14 * s)
+            self.stud(f"blade_lift_piston_rod_{letter}_pin", body, self.spot(x, side * y, z), side * Y, r, 0.26 * s)
             found[letter] = (self.world(x, side * y, z), self.turned(Y))
         at, (y, up) = self.centre_x - 0.1, (0.45, top + 0.13)
-        self.slab("centre shift lug", body, "x", at, [(y, up, 0.05), (y - 0.1, top - e), (y + 0.1, top - e)])
-        self.stud("centre_shift_piston_rod_pin", body, self.spot(self.centre_x, y, up), X, r, 0.1 * s - 0.5 * self.t)
+        self.slab("centre shift lug", body, "x", at, [(y, up, 0.05), (y - 0.1, top - e), (y + 0.1, top - e)],
+                  (y, up, shank))  # fmt: skip
+        self.stud("centre_shift_piston_rod_pin", body, self.spot(self.centre_x, y, up), X, r, 0.1 * s + 0.5 * self.t)
         found["centre"] = (self.world(self.centre_x, y, up), self.turned(X))
         return found
 
@@ -300,29 +303,25 @@ class GraderBlade(SteeredChassis):
         """Two cheeks with the shoes of the moldboard's rails, a tube with the tip rod's lugs, the side shift's barrel;
         the rod's eye."""
         s, e, m, body, (px, pz), t = self.s, self.e / self.s, self.m, "blade_carrier", self.pivot, self.t / self.s
-        y, (bx, bz) = self.arm_y - t - self.gap / s, (px + 0.08, pz + 0.12)
+        y, (bx, bz), slack = self.arm_y - t - self.gap / s, (px + 0.08, pz + 0.12), self.slack
         for side, _ in SIDES:
-            rails = [(self.back, z) for z in self.rail_z]
-            if self.flat_rails:
-                x = self.back - 0.0125
-                outline: list[tuple[float, ...]] = [(px, pz, 0.075), (x, rails[0][1] - 0.07), (x, rails[1][1] + 0.07)]
-                self.slab("cheek", body, "y", side * y, outline, (px, pz), (bx, bz, 0.045))
-                for z in self.rail_z:
-                    for d in (1, -1):
-                        a, b = sorted((z + d * 0.03, z + d * 0.065))
-                        self.block("shoe", body, (x - e, side * y - t / 2, a), (x + 0.025, side * y + t / 2, b))
-            else:
-                outline = [(px, pz, 0.075), *((*r, 0.055) for r in rails)]
-                rail_r = 0.03 + self.clearance / s
-                self.slab("cheek", body, "y", side * y, outline, (px, pz), (bx, bz, 0.045),
-                          *((*r, rail_r) for r in rails))  # fmt: skip
+            x, (low, high) = self.back - 0.0125 - slack, self.rail_z
+            outline: list[tuple[float, ...]] = [(px, pz, 0.075), (x, low - 0.07), (x, high + 0.07)]
+            self.slab("cheek", body, "y", side * y, outline, (px, pz), (bx, bz, 0.055))
+            for z in self.rail_z:
+                for d in (1, -1):
+                    a, b = sorted((z + d * (0.03 + slack), z + d * 0.065))
+                    self.block("shoe", body, (x - e, side * y - t / 2, a), (x + 0.02, side * y + t / 2, b))
         inner = y - t / 2 + e
         self.block("carrier tube", body, (px - 0.04, -inner, pz - 0.04), (px + 0.03, inner, pz + 0.04))
         eye = (px - 0.07, pz + 0.27)
         self.ears("tip rod lug", body, "y", 0.0, eye, (px - 0.04, pz + 0.04 - e), (px + 0.01, pz + 0.04 - e))
         self.eared("blade_tip_piston_rod_pin", body, "y", 0.0, eye)
         start, end = -0.7, 0.56
-        can = lathe("shift_can", [(0, 0), (0.045 * s, 0), (0.045 * s, (end - start) * s),
+        flange = -y + t / 2 + 0.025 - start
+        can = lathe("shift_can", [(0, 0), (0.045 * s, 0), (0.045 * s, (flange - 0.025) * s),
+                                  (0.085 * s, (flange - 0.025) * s), (0.085 * s, flange * s), (0.045 * s, flange * s),
+                                  (0.045 * s, (end - start) * s),
                                   (0.022 * s, (end - start) * s), (0.022 * s, (end - start - 0.04) * s),
                                   (0.035 * s, (end - start - 0.04) * s), (0.035 * s, 0.03 * s), (0, 0.03 * s)])  # fmt: skip
         m.add("shift barrel", "side_shift_cylinder_barrel", body, can, place(self.spot(bx, start, bz), Y))
@@ -338,33 +337,22 @@ class GraderBlade(SteeredChassis):
         behind = [(x - 0.03, z) for x, z in face]
 
         def across(
-            name: str, corners: list[tuple[float, ...]], low: float, high: float, *holes: tuple[float, ...],
-            role: str = "",
-        ) -> None:  # fmt: skip
-            self.slab(name, body, "y", 0.5 * (low + high), corners, *holes, thick=high - low, role=role)
+            name: str, corners: list[tuple[float, ...]], low: float, high: float, role: str = ""
+        ) -> None:
+            self.slab(name, body, "y", 0.5 * (low + high), corners, thick=high - low, role=role)
 
         side = half - 0.025
         for k in range(4):
             across("moldboard", [face[k], face[k + 1], behind[k + 1], behind[k]], -side, side)
         rails = [(back, z) for z in self.rail_z]
-        bores = () if self.flat_rails else tuple((*r, 0.03) for r in rails)
-        for r in rails:
-            if self.flat_rails:
-                self.block("rail", body, (r[0] - 0.0125, -side, r[1] - 0.03), (r[0] + 0.0125, side, r[1] + 0.03))
-            else:
-                bar = tube("rail", 0.03 * s, 0.0, 2 * side * s)
-                m.add("rail", body, body, bar, place(self.spot(r[0], -side, r[1]), Y))
-        reach = 0.0125 if self.flat_rails else -0.05
-        web: list[tuple[float, ...]] = [behind[1], behind[2]]
-        if self.flat_rails:
-            web += [(back + reach, rails[0][1]), (back + reach, rails[1][1])]
-        else:
-            web += [(*r, 0.05) for r in rails]
-        ends: list[tuple[float, ...]] = [face[0], face[4], *rails, (back - 0.05, pz), *((*r, 0.05) for r in rails)]
+        for x, z in rails:
+            self.block("rail", body, (x - 0.0125, -side, z - 0.03), (x + 0.0125, side, z + 0.03))
+        web: list[tuple[float, ...]] = [behind[1], behind[2], *((x + 0.0125, z) for x, z in rails)]
+        ends: list[tuple[float, ...]] = [face[0], face[4], *((*r, 0.05) for r in rails)]
         for sign, letter in SIDES:
             for y in (0.66 * half, 0.93 * half):
                 a, b = sorted((sign * y, sign * (y + 0.03)))
-                across("gusset", web, a, b, *bores)
+                across("gusset", web, a, b)
             a, b = sorted((sign * (side - e), sign * half))
             across("end plate", ends, a, b)
             edge: list[tuple[float, ...]] = [(back + 0.25, 0.0), (back + 0.2, 0.13 + e), (back + 0.17, 0.13 + e),

@@ -1,5 +1,5 @@
 """Parametric motor graders straight as `Assembly` objects, with the truth: the cab before or behind the articulation, the
-lift cylinders in gimbals or on studs, a drawbar of two arms or one beam, rails round or flat, a ripper or none.
+lift cylinders in gimbals or on studs, a drawbar of two arms or one beam, a ripper or none.
 
 Every dimension is drawn from a seed, by none of the example's code; simplified as the synthetic loaders are. The frames
 stand at an angle, the front wheels lean and are steered, the blade is angled, tipped, shifted and sloped.
@@ -39,11 +39,10 @@ class Grader(GraderBlade):
     """One machine from one generator of random numbers."""
 
     def __init__(
-        self, seed: int, *, cab_behind: bool, gimbals: bool, beamed: bool, flat_rails: bool, ripper: bool,
-        embedded: bool,
+        self, seed: int, *, cab_behind: bool, gimbals: bool, beamed: bool, ripper: bool, embedded: bool,
     ) -> None:  # fmt: skip
         self.cab_behind, self.gimbals, self.beamed = cab_behind, gimbals, beamed
-        self.flat_rails, self.ripper = flat_rails, ripper
+        self.ripper = ripper
         super().__init__(seed, twin=True, steered=True, embedded=embedded, stop=False, hoses=0)
         self.m.title = "GRADER"
 
@@ -75,6 +74,7 @@ class Grader(GraderBlade):
         self.arm_y = 0.52 * u(0.95, 1.04)
         self.pivot = (self.circle_x - 0.2, 0.2)
         self.back, self.rail_z = self.circle_x + 0.01, (0.14, 0.44)
+        self.slack = float(self.rng.choice([0.008, 0.012]))
         self.half_blade, self.tall = 1.83 * u(0.95, 1.1), 0.62 * u(0.95, 1.04)
         # The drawn pose
         some = self.rng.random(9) < 0.6
@@ -129,14 +129,15 @@ class Grader(GraderBlade):
         for d in (1, -1):
             self.slab("saddle lug", body, "x", x + d * off, [(0, z, 0.07), (0.13, top), (-0.13, top)], (0, z))
         self.pinned("saddle_pin", body, "x", (0, z), x - off - 0.7 * t, x + off + 0.7 * t)
-        z, off = self.high + 0.12, self.beam_x + gap + t / 2
+        z, off = self.high + 0.12, self.post_x + gap + t / 2
         for d in (1, -1):
             lug: list[tuple[float, ...]] = [(0, z, 0.07), (0.13, self.low + e), (-0.13, self.low + e)]
             self.slab("axle lug", body, "x", f + d * off, lug, (0, z))
         self.pinned("front_axle_pin", body, "x", (0, z), f - off - 0.7 * t, f + off + 0.7 * t)
         x = self.nose[0] + 0.15
-        self.block("nose bracket", body, (x, -0.12, self.nose[2] - 0.1), (x + 0.06, 0.12, self.low + e))
-        self.stud("drawbar_ball_pin", body, self.spot(*self.nose), -X, 0.07 * s, 0.15 * s)
+        corners: list[tuple[float, ...]] = [(y, z) for y in (0.12, -0.12) for z in (self.nose[2] - 0.1, self.low + e)]
+        self.slab("nose bracket", body, "x", x + 0.03, corners, (0.0, self.nose[2], 0.45 * 0.07), thick=0.06)
+        self.stud("drawbar_ball_pin", body, self.spot(*self.nose), -X, 0.07 * s, 0.21 * s)
         if not self.cab_behind:
             self.cab(body, 0.22, low + 0.38)
 
@@ -158,7 +159,7 @@ class Grader(GraderBlade):
 
     def rear_frame(self) -> None:
         s, e, body, x = self.s, self.e / self.s, "rear_frame", self.tandem
-        t, end = self.t / s, self.tandem - 1.85
+        end = self.tandem - 1.85
         self.end = end
         for z in self.hitch_z:
             tongue = [(0, 0, 0.1), (-0.25 - e, 0.26), (-0.25 - e, -0.26)]
@@ -171,15 +172,18 @@ class Grader(GraderBlade):
             feet = ((qx - 0.1, side * (0.42 - e)), (qx + 0.0, side * (0.42 - e)))
             self.ears("bend rod lug", body, "z", self.bend_z, (qx, side * qy), *feet)
             self.eared(f"articulation_piston_rod_{letter}_pin", body, "z", self.bend_z, (qx, side * qy))
-            self.block("axle pad", body, (x - 0.14, a, self.high + 0.1), (x + 0.14, b, 0.9 + e))
             self.block("fender", body, (x - 0.9, *sorted((side * 0.48, side * 1.2))[:1], 1.5),
                        (x + 0.9, sorted((side * 0.48, side * 1.2))[1], 1.52))  # fmt: skip
         for k, at in enumerate((x + 0.35, end + 0.4)):
             self.block(f"cross member {k}", body, (at, -0.34 - e, 0.93), (at + 0.05, 0.34 + e, 1.12))
         reach, r = self.case_y - self.case_t / 2 - self.gap / s, self.high
-        housing = tube("axle_housing", 0.15 * s, 0.0, 2 * reach * s)
-        self.m.add("axle housing", body, body, housing, place(self.spot(x, -reach, r), Y))
-        middle = x + 0.2 if self.cab_behind else -0.9
+        housing = tube("axle_housing", 0.15 * s, 0.075 * s, 2 * reach * s)
+        tall = 0.9 - r - 0.1
+        pad = box("axle_pad", 0.28 * s, 0.08 * s, tall * s)
+        shapes = [(pad, place(self.spot(x, side * 0.38, 0.9 - tall / 2), Z, X)) for side, _ in SIDES]
+        casting = merged("axle_casting", (housing, place(self.spot(x, -reach, r), Y)), *shapes)
+        self.m.add("axle housing", body, body, casting, np.eye(4))
+        middle = -1.8 if self.cab_behind else -0.9
         hood = float(self.rng.uniform(2.0, 2.25))
         self.block("engine", body, (end + 0.5, -0.34 - e, 1.0), (middle - 0.2, 0.34 + e, 1.6))
         for side, _ in SIDES:
@@ -191,14 +195,13 @@ class Grader(GraderBlade):
         stack = tube("exhaust", 0.06 * s, 0.05 * s, 0.6 * s)
         self.m.add("exhaust", body, body, stack, place(self.spot(end + 1.0, 0.15, hood + 0.03 - e), Z))
         if self.cab_behind:
-            self.block("deck", body, (-1.45, -0.6, 1.16 - e), (-0.05, 0.6, 1.38))
-            self.cab(body, -1.42, 1.38)
+            self.block("deck", body, (-1.74, -0.6, 1.16 - e), (-0.34, 0.6, 1.38))
+            self.cab(body, -1.72, 1.38)
         else:
             self.block("tank", body, (-0.85, -0.45, 1.16 - e), (-0.4, 0.45, float(self.rng.uniform(1.6, 1.9))))
         for k in range(6):
             at = self.spot(end - 0.06, (0.42, -0.42)[k % 2], 0.85 + 0.2 * (k // 2))
             self.m.add("M20", body, body, bolt("wall_bolt", 0.012 * s, 0.06 * s), place(at, -X))
-        self.case_hold = t
 
     hitch_z = (0.9, 1.32)
     bend_z, bend_foot, bend_eye = 1.1, (0.8, 0.36), (-0.36, 0.54)
@@ -238,6 +241,11 @@ class Grader(GraderBlade):
         """Half of the axle's beam, lengthwise: it takes the forks about the yokes' hubs."""
         return HUB + (self.gap + self.t) / self.s
 
+    @property
+    def post_x(self) -> float:
+        """Half of the axle's post, lengthwise: the bar between the yokes passes before it."""
+        return self.beam_x + 0.04
+
     def axle_group(self) -> None:
         s, e, m, f, r, body = self.s, self.e / self.s, self.m, self.front, self.high, "front_axle"
         bx, ly, t, gap = self.beam_x, self.lean_y, self.t / s, self.gap / s
@@ -245,7 +253,7 @@ class Grader(GraderBlade):
         wall = ly - 0.14
         self.block("axle beam", body, (f - bx, -wall, low), (f + bx, wall, high))
         post: list[tuple[float, ...]] = [(0, pin_z, 0.08), (0.09, high - e), (-0.09, high - e)]
-        self.slab("axle post", body, "x", f, post, (0, pin_z), thick=2 * bx)
+        self.slab("axle post", body, "x", f, post, (0, pin_z), thick=2 * self.post_x)
         for side, letter in SIDES:
             for d in (1, -1):
                 fork: list[tuple[float, ...]] = [(side * ly, r, 0.06), (side * (wall - e), low),
@@ -254,14 +262,14 @@ class Grader(GraderBlade):
             reach = bx + 0.3 * t
             self.pinned(f"lean_yoke_{letter}_pin", body, "x", (side * ly, r), f - reach, f + reach)
             z = self.steer_z
-            a, b = sorted((side * 0.06, side * 0.2))
+            a, b = sorted((side * 0.03, side * 0.12))
             self.block("steering foot", body, (f - bx - 0.03, a, low + 0.02), (f - bx + e, b, z + 0.07))
             feet = ((f - bx - 0.03 + e, a), (f - bx - 0.03 + e, b))
-            self.ears("steering lug", body, "z", z, (f - bx - 0.1, side * 0.13), *feet)
-            self.eared(f"steering_cylinder_barrel_{letter}_pin", body, "z", z, (f - bx - 0.1, side * 0.13))
-        lean_x, (fy, fz) = f - POST - gap - 0.5 * self.eye_w / s, (0.21, r + 0.06)
+            self.ears("steering lug", body, "z", z, (self.steer_x, side * 0.09), *feet)
+            self.eared(f"steering_cylinder_barrel_{letter}_pin", body, "z", z, (self.steer_x, side * 0.09))
+        lean_x, (fy, fz) = f - POST - gap - 0.5 * self.eye_w / s, (0.185, r + 0.06)
         width = self.lug + t
-        self.block("lean foot", body, (lean_x - width, fy - 0.06, high - e), (lean_x + width, fy + 0.06, high + 0.02))
+        self.block("lean foot", body, (lean_x - width, fy - 0.05, high - e), (lean_x + width, fy + 0.05, high + 0.02))
         self.ears("lean lug", body, "x", lean_x, (fy, fz), (fy - 0.05, high + 0.02 - e), (fy + 0.05, high + 0.02 - e))
         self.eared("wheel_lean_cylinder_barrel_pin", body, "x", lean_x, (fy, fz))
         foot = self.world(lean_x, fy, fz)
@@ -291,11 +299,16 @@ class Grader(GraderBlade):
     @property
     def steer_z(self) -> float:
         """The steering cylinders' eyes lie on the knuckles' arms."""
-        return self.arm_z + 0.0175 + (self.gap + 0.5 * self.eye_w) / self.s
+        return self.arm_z + 0.0215 + (self.gap + 0.5 * self.eye_w) / self.s
+
+    @property
+    def steer_x(self) -> float:
+        """Where the steering cylinders' feet are."""
+        return self.front - self.beam_x - 0.115
 
     @property
     def tie_z(self) -> float:
-        return self.arm_z - 0.0175 - self.gap / self.s - 0.02
+        return self.arm_z - 0.0215 - self.gap / self.s - 0.02
 
     def yoke(self, side: int, letter: str, lean_x: float) -> None:
         """A hub on its pin, a post up to the bar, two plates about the knuckle: one casting."""
@@ -323,7 +336,7 @@ class Grader(GraderBlade):
     def knuckles(self, axle: Array, yokes: dict[str, Array]) -> None:
         """Both knuckles with their wheels, steering cylinders, and the tie rod between: it keeps its length."""
         s, m, f, r = self.s, self.m, self.front, self.high
-        tie, eye = (f - 0.26, self.king - 0.04), (f - 0.2, self.king - 0.02)
+        tie, eye = (f - 0.31, self.king - 0.04), (f - 0.2, self.king - 0.02)
 
         def pose(side: int, letter: str, angle: float) -> Array:
             return yokes[letter] @ about(self.spot(f, side * self.king, r), Z, angle)
@@ -346,7 +359,7 @@ class Grader(GraderBlade):
             up, q = self.turned(Z), self.world(eye[0], side * eye[1], self.steer_z)
             ring = plate(f"tie_eye{side}", around((0, 0, 1.6 * self.pin_r)), 0.04 * s, [(0, 0, self.bore_r)])
             shapes.append((ring, place(ends[letter], up, way)))
-            foot = np.append(self.spot(f - self.beam_x - 0.1, side * 0.13, self.steer_z), 1.0)
+            foot = np.append(self.spot(self.steer_x, side * 0.09, self.steer_z), 1.0)
             halves = (f"steering_cylinder_barrel_{letter}", f"steering_piston_rod_{letter}")
             self.ram(f"steer {letter}", halves, ((axle @ foot)[:3], q), (axle[:3, 2], up), 0.028 * s)
         m.pose = np.eye(4)
@@ -415,10 +428,10 @@ def grader(
     embedded: bool = False,
 ) -> Machine:  # fmt: skip
     """The machine of a seed, in its own frame, in drawing order, with names; what is not stated is the seed's."""
-    drawn = np.random.default_rng([seed, 67]).random(5)
+    drawn = np.random.default_rng([seed, 67]).random(4)
     return Grader(
         seed, cab_behind=bool(drawn[0] < 0.4) if cab_behind is None else cab_behind,
         gimbals=bool(drawn[1] < 0.6) if gimbals is None else gimbals,
         ripper=bool(drawn[2] < 0.5) if ripper is None else ripper,
-        beamed=bool(drawn[3] < 0.4), flat_rails=bool(drawn[4] < 0.5), embedded=embedded,
+        beamed=bool(drawn[3] < 0.4), embedded=embedded,
     ).draw()  # fmt: skip
