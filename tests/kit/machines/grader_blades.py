@@ -157,14 +157,14 @@ class GraderBlade(SteeredChassis):
                                         (rod_r, 0.3 * bore)])  # fmt: skip
         m.add(f"{name} gland", halves[0], halves[0], gland, place(P + d * mouth, d))
         inside = first + cap + (n - 2.5 * bore - cap) * float(rng(0.3, 0.8))
-        m.add(f"{name} rod", halves[1], halves[1], tube(f"{name}_rod", rod_r, 0.0, long - last - inside),
-              place(P + d * inside, d))  # fmt: skip
+        bar = tube(f"{name}_rod", rod_r, 0.0, long - last - inside)
+        m.add(f"{name} rod", halves[1], halves[1], bar, place(P + d * inside, d))
+        m.add(f"{name} rod eye", halves[1], halves[1], eyes[1][0], place(Q, eyes[1][1], -d))
         if rng() < 0.5:
             piston, foot = tube(f"{name}_piston", bore, rod_r, 0.8 * bore), inside
         else:
             piston, foot = tube(f"{name}_piston", bore, 0.0, 0.6 * bore), inside - 0.6 * bore
         m.add(f"{name} piston", halves[1], halves[1], piston, place(P + d * foot, d))
-        m.add(f"{name} rod eye", halves[1], halves[1], eyes[1][0], place(Q, eyes[1][1], -d))
         m.pose = kept
 
     # ---- what the blade hangs on ----
@@ -286,7 +286,7 @@ class GraderBlade(SteeredChassis):
         """The ring, two arms down to the carrier, the tip cylinder's lugs; its foot, and the line of that."""
         s, e, m, body, c = self.s, self.e / self.s, self.m, "circle", self.circle_x
         low, t = self.table_z - 0.165, self.t / s
-        (px, pz), eye = self.pivot, (c - 0.9 * self.ring_r - 0.02, self.table_z - 0.28)
+        (px, pz), eye = self.pivot, (c - 0.9 * self.ring_r - 0.06, self.table_z - 0.28)
         m.add("ring", body, body, tube("circle_ring", self.ring_r * s, (self.ring_r - 0.13) * s, 0.08 * s),
               place(self.spot(c, 0, low), Z))  # fmt: skip
         y, back = self.arm_y, c - math.sqrt((self.ring_r - 0.03) ** 2 - self.arm_y**2)
@@ -311,8 +311,8 @@ class GraderBlade(SteeredChassis):
             for z in self.rail_z:
                 for d in (1, -1):
                     a, b = sorted((z + d * (0.03 + slack), z + d * 0.065))
-                    self.block("shoe", body, (x - e, side * y - t / 2, a), (x + 0.02, side * y + t / 2, b))
-        inner = y - t / 2 + e
+                    self.block("shoe", body, (x, side * y - t / 2, a), (x + 0.02, side * y + t / 2, b))
+        inner = y - t / 2
         self.block("carrier tube", body, (px - 0.04, -inner, pz - 0.04), (px + 0.03, inner, pz + 0.04))
         eye = (px - 0.07, pz + 0.27)
         self.ears("tip rod lug", body, "y", 0.0, eye, (px - 0.04, pz + 0.04 - e), (px + 0.01, pz + 0.04 - e))

@@ -82,6 +82,9 @@ class Grader(GraderBlade):
                  u(-0.6, 0.6), u(-0.4, 0.4), u(-0.15, 0.15)]  # fmt: skip
         (self.bend, self.steered, self.lean, self.rolled, self.aside, self.sloped, self.turn, self.shifted,
          self.hole) = (float(d) if use else 0.0 for d, use in zip(drawn, some, strict=True))  # fmt: skip
+        # A wheel that leans tilts its steering cylinder's pin: there it hangs on balls.
+        self.balls = self.lean != 0.0 or bool(u() < 0.3)
+        self.steer_ball, self.ball_rise = 0.032 * s, 0.06
         self.lifted, self.tip = float(u(0.03, 0.12)), float(u(-0.05, 0.35))
         self.pitch = {letter: float(u(-0.07, 0.07)) for letter in "lr"}
 
@@ -264,9 +267,16 @@ class Grader(GraderBlade):
             z = self.steer_z
             a, b = sorted((side * 0.03, side * 0.12))
             self.block("steering foot", body, (f - bx - 0.03, a, low + 0.02), (f - bx + e, b, z + 0.07))
-            feet = ((f - bx - 0.03 + e, a), (f - bx - 0.03 + e, b))
-            self.ears("steering lug", body, "z", z, (self.steer_x, side * 0.09), *feet)
-            self.eared(f"steering_cylinder_barrel_{letter}_pin", body, "z", z, (self.steer_x, side * 0.09))
+            feet, role = ((f - bx - 0.03 + e, a), (f - bx - 0.03 + e, b)), f"steering_cylinder_barrel_{letter}_pin"
+            at = (self.steer_x, side * 0.09)
+            if self.balls:
+                shelf, shank = z - self.ball_rise, 0.45 * self.steer_ball / s
+                self.slab("steering lug", body, "z", shelf, [(*at, 0.04), *feet], (*at, shank), thick=0.035)
+                long = self.ball_rise * s + 0.0175 * s
+                self.stud(role, body, self.spot(*at, z), Z, self.steer_ball, long)
+            else:
+                self.ears("steering lug", body, "z", z, at, *feet)
+                self.eared(role, body, "z", z, at)
         lean_x, (fy, fz) = f - POST - gap - 0.5 * self.eye_w / s, (0.185, r + 0.06)
         width = self.lug + t
         self.block("lean foot", body, (lean_x - width, fy - 0.05, high - e), (lean_x + width, fy + 0.05, high + 0.02))
@@ -298,8 +308,8 @@ class Grader(GraderBlade):
 
     @property
     def steer_z(self) -> float:
-        """The steering cylinders' eyes lie on the knuckles' arms."""
-        return self.arm_z + 0.0215 + (self.gap + 0.5 * self.eye_w) / self.s
+        """Height of the steering cylinders' eyes, above the knuckles' arms."""
+        return self.arm_z + (self.ball_rise if self.balls else 0.0215 + (self.gap + 0.5 * self.eye_w) / self.s)
 
     @property
     def steer_x(self) -> float:
@@ -361,7 +371,8 @@ class Grader(GraderBlade):
             shapes.append((ring, place(ends[letter], up, way)))
             foot = np.append(self.spot(self.steer_x, side * 0.09, self.steer_z), 1.0)
             halves = (f"steering_cylinder_barrel_{letter}", f"steering_piston_rod_{letter}")
-            self.ram(f"steer {letter}", halves, ((axle @ foot)[:3], q), (axle[:3, 2], up), 0.028 * s)
+            radii = (self.steer_ball if self.balls else 0.0,) * 2
+            self.ram(f"steer {letter}", halves, ((axle @ foot)[:3], q), (axle[:3, 2], up), 0.028 * s, balls=radii)
         m.pose = np.eye(4)
         full, off = float(np.linalg.norm(way)), 1.2 * self.pin_r
         bar = tube("tie_bar", 0.019 * s, 0.0, full - 2 * off)
@@ -377,8 +388,9 @@ class Grader(GraderBlade):
         hub = plate("knuckle_hub", around((0, 0, 0.058 * s)), 2 * half * s, [(0, 0, self.bore_r)])
         (tx, ty), (ex, ey) = (tie[0], side * tie[1]), (eye[0], side * eye[1])
         pin = self.pin_r / s
+        shank = 0.45 * self.steer_ball / s if self.balls else pin
         arm = self.slabbed(f"arm{side}", "z", self.arm_z, [(f, k, 0.055), (tx, ty, 1.7 * pin), (ex, ey, 1.7 * pin)],
-                           (f, k), (tx, ty, pin), (ex, ey, pin), thick=0.035)  # fmt: skip
+                           (f, k), (tx, ty, pin), (ex, ey, shank), thick=0.035)  # fmt: skip
         reach, start = self.tread / 2 - 0.22 * s, (self.king + 0.045) * s
         spindle = tube("front_spindle", 0.055 * s, 0.0, reach - start)
         shape = merged(f"{body}_casting", (hub, place(self.spot(f, k, r), Z, X)), arm,
@@ -386,7 +398,12 @@ class Grader(GraderBlade):
         self.m.add("knuckle", body, body, shape, np.eye(4))
         self.wheel(f"front_wheel_{letter}", body, side, np.array([f * s, side * self.tread / 2, self.tyre_r]), reach)
         self.pinned(f"tie_rod_{letter}_pin", body, "z", (tx, ty), self.tie_z - 0.03, self.arm_z + 0.0175)
-        self.pinned(f"steering_piston_rod_{letter}_pin", body, "z", (ex, ey), self.arm_z - 0.0175, self.steer_z + 0.03)
+        role = f"steering_piston_rod_{letter}_pin"
+        if self.balls:
+            long = self.ball_rise * s + 0.0175 * s
+            self.stud(role, body, self.spot(ex, ey, self.steer_z), Z, self.steer_ball, long)
+        else:
+            self.pinned(role, body, "z", (ex, ey), self.arm_z - 0.0175, self.steer_z + 0.03)
 
     # ---- ripper ----
     def ripper_group(self) -> None:
