@@ -263,8 +263,8 @@ class GraderBlade(SteeredChassis):
         under = low - 0.125
         guide = tube("guide", inner * s - self.clearance, (inner - 0.07) * s, (low - under) * s)
         m.add("guide", "circle_bearing", body, guide, place(self.spot(c, 0, under), Z))
-        m.add("retainer", body, body, tube("retainer", (inner + 0.025) * s, (inner - 0.07) * s, 0.03 * s),
-              place(self.spot(c, 0, under - 0.03), Z))  # fmt: skip
+        m.add("retainer", body, body, tube("retainer", (inner + 0.015) * s, (inner - 0.07) * s, 0.02 * s),
+              place(self.spot(c, 0, under - 0.02), Z))  # fmt: skip
         motor = tube("circle_motor", 0.09 * s, 0.0, 0.2 * s)
         m.add("circle motor", body, body, motor, place(self.spot(c - 0.5, 0.3, top), Z))
         found, r, z, x = {}, self.ball_r, top + 0.075, c + self.lift_x
@@ -291,7 +291,7 @@ class GraderBlade(SteeredChassis):
               place(self.spot(c, 0, low), Z))  # fmt: skip
         y, back = self.arm_y, c - math.sqrt((self.ring_r - 0.03) ** 2 - self.arm_y**2)
         for side, _ in SIDES:
-            self.slab("circle arm", body, "y", side * y, [(px, pz, 0.075), (back, low + e), (back + 0.1, low + e)],
+            self.slab("circle arm", body, "y", side * y, [(px, pz, 0.075), (back - 0.03, low + e), (back + 0.05, low + e)],
                       (px, pz))  # fmt: skip
             ends = sorted((side * (y - 1.6 * t - self.gap / s), side * (y + 0.6 * t)))
             self.pinned("blade_carrier_pin", body, "y", (px, pz), *ends)

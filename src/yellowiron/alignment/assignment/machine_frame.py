@@ -30,6 +30,8 @@ _ALIKE_WHEELS, _LEVELLED = 0.02, 4
 """Radii that differ by less are one size; where they differ, so many times the ground is laid under the wheels anew."""
 LEANING = 0.2
 """Least level part of the unit way from a boom's section to the one in it that tells which way the boom points."""
+UPRIGHT = 0.8
+"""Least upright part of the unit way of a kingpin, which may lean."""
 SNAP = 1e-6
 """A rotation this near to a signed permutation of the axes is that permutation."""
 
@@ -248,18 +250,35 @@ def _up_guess(pitch: Floats | None) -> Floats:
 
 
 def _left(scene: _Scene, swing: str | None, up: Floats) -> Floats | None:
-    """The axis of the wheels on the root's side of the swing, else the commonest joint axis across `up`."""
-    found = [
-        scene.wheels[scene.structure.clusters[scene.cluster_of[b]].number]
+    """The axis of the wheels on the root's side of the swing: of those that are not steered, which may be drawn turned;
+    where all are, from one side's kingpins to the other's. Without wheels, the commonest joint axis across `up`."""
+    found = {
+        b: scene.wheels[scene.structure.clusters[scene.cluster_of[b]].number]
         for b in sorted(_joined_to_root(scene.template, swing))
         if b in scene.cluster_of and scene.structure.clusters[scene.cluster_of[b]].kind == "wheel"
-    ]
+    }
+    kingpins = {b: pin for b in found if (pin := _kingpin(scene, b, up)) is not None}
+    sides = [[p.origin for b, p in kingpins.items() if scene.template.role(b).side == side] for side in ("l", "r")]
+    if found and len(kingpins) == len(found) and all(sides):
+        return np.asarray(np.mean(sides[0], axis=0) - np.mean(sides[1], axis=0), dtype=np.float64)
     if found:
-        first = found[0].direction
-        total = np.sum([w.direction if w.direction @ first > 0 else -w.direction for w in found], axis=0)
+        axes = [w.direction for b, w in found.items() if b not in kingpins or len(kingpins) == len(found)]
+        total = np.sum([a if a @ axes[0] > 0 else -a for a in axes], axis=0)
         return np.asarray(total, dtype=np.float64)
     across = [ln for ln in scene.axes.values() if abs(float(ln.direction @ up)) < 0.3]
     return _common_direction(across)
+
+
+def _kingpin(scene: _Scene, wheel: str, up: Floats) -> SharedAxis | None:
+    """The upright axis about which what carries a wheel is steered."""
+    template = scene.template
+    beside = {b for j in template.joints for b in template.bodies_of(j) if wheel in template.bodies_of(j)}
+    carriers = {b for b in beside - {wheel, None} if b is not None and template.role(b).side}
+    for name, axis in sorted(scene.axes.items()):
+        ends = set(template.bodies_of(template.joint(name)))
+        if ends & carriers and wheel not in ends and abs(float(axis.direction @ up)) > UPRIGHT:
+            return axis
+    return None
 
 
 def _joined_to_root(template: Template, swing: str | None) -> set[str]:
