@@ -336,9 +336,7 @@ class GraderBlade(SteeredChassis):
                                            (0.2, tall))]  # fmt: skip
         behind = [(x - 0.03, z) for x, z in face]
 
-        def across(
-            name: str, corners: list[tuple[float, ...]], low: float, high: float, role: str = ""
-        ) -> None:
+        def across(name: str, corners: list[tuple[float, ...]], low: float, high: float, role: str = "") -> None:
             self.slab(name, body, "y", 0.5 * (low + high), corners, thick=high - low, role=role)
 
         side = half - 0.025

@@ -1,5 +1,5 @@
-"""Parametric motor graders straight as `Assembly` objects, with the truth: the cab before or behind the articulation, the
-lift cylinders in gimbals or on studs, a drawbar of two arms or one beam, a ripper or none.
+"""Parametric motor graders straight as `Assembly` objects, with the truth: the cab before or behind the articulation,
+the lift cylinders in gimbals or on studs, a drawbar of two arms or one beam, a ripper or none.
 
 Every dimension is drawn from a seed, by none of the example's code; simplified as the synthetic loaders are. The frames
 stand at an angle, the front wheels lean and are steered, the blade is angled, tipped, shifted and sloped.
@@ -7,6 +7,7 @@ stand at an angle, the front wheels lean and are steered, the blade is angled, t
 
 from __future__ import annotations
 
+import itertools
 import math
 
 import numpy as np
@@ -112,7 +113,7 @@ class Grader(GraderBlade):
         tops = [(0.2, low, low + 0.38), (rise, low, low + 0.38), (rise + 0.52, arch, arch + 0.34),
                 (f - 1.05, arch, arch + 0.34), (f - 0.5, self.low, self.low + 0.3),
                 (f + 0.4, self.low, self.low + 0.3)]  # fmt: skip
-        for k, ((x, a, c), (p, q, r)) in enumerate(zip(tops, tops[1:], strict=False)):
+        for k, ((x, a, c), (p, q, r)) in enumerate(itertools.pairwise(tops)):
             self.slab(f"beam {k}", body, "y", 0.0, [(x, a), (x, c), (p, r), (p, q)], thick=2 * b)
         self.block("push plate", body, (f + 0.4 - e, -0.7, self.low - 0.35), (f + 0.5, 0.7, self.low + 0.3))
         self.block("hitch wall", body, (0.15, -0.3, 0.8), (0.2 + e, 0.3, 1.42))
@@ -290,7 +291,7 @@ class Grader(GraderBlade):
         m.pose = yokes["l"]
         eye, along = self.world(lean_x, ly, r + 0.17), self.turned(X)
         halves = ("wheel_lean_cylinder_barrel", "wheel_lean_piston_rod")
-        self.ram("lean", halves, (foot, eye), (along, along), 0.03 * s)
+        self.ram("lean", halves, (foot, eye), (along, along), 0.024 * s)
         # The bar between the yokes stays level.
         shifted = np.eye(4)
         shifted[:3, 3] = (turn_about_x(self.spot(0, ly, r), self.lean) @ np.append(self.spot(f, ly, r + 0.28), 1.0))[

@@ -258,27 +258,29 @@ def _left(scene: _Scene, swing: str | None, up: Floats) -> Floats | None:
         if b in scene.cluster_of and scene.structure.clusters[scene.cluster_of[b]].kind == "wheel"
     }
     kingpins = {b: pin for b in found if (pin := _kingpin(scene, b, up)) is not None}
-    sides = [[p.origin for b, p in kingpins.items() if scene.template.role(b).side == side] for side in ("l", "r")]
-    if found and len(kingpins) == len(found) and all(sides):
-        return np.asarray(np.mean(sides[0], axis=0) - np.mean(sides[1], axis=0), dtype=np.float64)
+    pairs = [(pin, kingpins.get(f"{b[:-2]}_r")) for b, pin in kingpins.items() if b.endswith("_l")]
+    across = [left.origin - right.origin for left, right in pairs if right is not None]
+    if across and len(kingpins) == len(found):
+        return np.asarray(np.sum(across, axis=0), dtype=np.float64)
     if found:
         axes = [w.direction for b, w in found.items() if b not in kingpins or len(kingpins) == len(found)]
         total = np.sum([a if a @ axes[0] > 0 else -a for a in axes], axis=0)
         return np.asarray(total, dtype=np.float64)
-    across = [ln for ln in scene.axes.values() if abs(float(ln.direction @ up)) < 0.3]
-    return _common_direction(across)
+    return _common_direction([ln for ln in scene.axes.values() if abs(float(ln.direction @ up)) < 0.3])
 
 
 def _kingpin(scene: _Scene, wheel: str, up: Floats) -> SharedAxis | None:
-    """The upright axis about which what carries a wheel is steered."""
+    """The upright axis about which what carries a wheel is steered: of its upright ones that to the body nearest to the
+    root, the others are tie rods' and cylinders'."""
     template = scene.template
     beside = {b for j in template.joints for b in template.bodies_of(j) if wheel in template.bodies_of(j)}
-    carriers = {b for b in beside - {wheel, None} if b is not None and template.role(b).side}
+    carriers = {b for b in beside if b not in (wheel, None) and template.role(str(b)).side}
+    upright = []
     for name, axis in sorted(scene.axes.items()):
         ends = set(template.bodies_of(template.joint(name)))
         if ends & carriers and wheel not in ends and abs(float(axis.direction @ up)) > UPRIGHT:
-            return axis
-    return None
+            upright.append((min(template.depth(str(b)) for b in ends - carriers), name, axis))
+    return min(upright, key=lambda found: found[:2])[2] if upright else None
 
 
 def _joined_to_root(template: Template, swing: str | None) -> set[str]:
