@@ -1,5 +1,5 @@
-"""What a drawn grader's blade hangs on: saddle, drawbar, circle, carrier and moldboard, with the cylinders on balls that
-move them. Lengths are in machine sizes, but those that pieces are made of.
+"""What a drawn grader's blade hangs on: saddle, drawbar, circle, carrier and moldboard, with the cylinders on balls
+that move them. Lengths are in machine sizes, but those that pieces are made of.
 
 The drawbar and what it carries are told as they stand straight and level with the edge on the ground.
 """
@@ -291,8 +291,8 @@ class GraderBlade(SteeredChassis):
               place(self.spot(c, 0, low), Z))  # fmt: skip
         y, back = self.arm_y, c - math.sqrt((self.ring_r - 0.03) ** 2 - self.arm_y**2)
         for side, _ in SIDES:
-            self.slab("circle arm", body, "y", side * y, [(px, pz, 0.075), (back - 0.03, low + e), (back + 0.05, low + e)],
-                      (px, pz))  # fmt: skip
+            feet = ((back - 0.03, low + e), (back + 0.05, low + e))
+            self.slab("circle arm", body, "y", side * y, [(px, pz, 0.075), *feet], (px, pz))
             ends = sorted((side * (y - 1.6 * t - self.gap / s), side * (y + 0.6 * t)))
             self.pinned("blade_carrier_pin", body, "y", (px, pz), *ends)
         self.ears("tip lug", body, "y", 0.0, eye, (eye[0] - 0.05, low + e), (eye[0] + 0.05, low + e))
@@ -319,11 +319,10 @@ class GraderBlade(SteeredChassis):
         self.eared("blade_tip_piston_rod_pin", body, "y", 0.0, eye)
         start, end = -0.7, 0.56
         flange = -y + t / 2 + 0.025 - start
-        can = lathe("shift_can", [(0, 0), (0.045 * s, 0), (0.045 * s, (flange - 0.025) * s),
-                                  (0.085 * s, (flange - 0.025) * s), (0.085 * s, flange * s), (0.045 * s, flange * s),
-                                  (0.045 * s, (end - start) * s),
-                                  (0.022 * s, (end - start) * s), (0.022 * s, (end - start - 0.04) * s),
-                                  (0.035 * s, (end - start - 0.04) * s), (0.035 * s, 0.03 * s), (0, 0.03 * s)])  # fmt: skip
+        n, r = end - start, 0.045
+        corners = [(0.0, 0.0), (r, 0.0), (r, flange - 0.025), (0.085, flange - 0.025), (0.085, flange), (r, flange),
+                   (r, n), (0.022, n), (0.022, n - 0.04), (0.035, n - 0.04), (0.035, 0.03), (0.0, 0.03)]  # fmt: skip
+        can = lathe("shift_can", [(a * s, b * s) for a, b in corners])
         m.add("shift barrel", "side_shift_cylinder_barrel", body, can, place(self.spot(bx, start, bz), Y))
         return self.world(eye[0], 0, eye[1])
 
