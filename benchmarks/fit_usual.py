@@ -32,7 +32,7 @@ TYPES = {
     "articulated_dump_truck": ("articulated_truck",), "rigid_dump_truck": ("rigid_truck",),
     "backhoe_loader": ("backhoe",), "roller": ("roller",), "forklift": ("forklift",),
     "telehandler": ("telehandler",), "dozer": ("dozer",),
-    "wheeled_excavator": ("wheeled_excavator",), "mobile_crane": ("crane",),
+    "wheeled_excavator": ("wheeled_excavator",), "mobile_crane": ("crane",), "grader": ("grader",),
 }  # fmt: skip
 """Type → kinds of machines that we draw of it; a body is measured on the first kind that has it."""
 KEPT = 0.05

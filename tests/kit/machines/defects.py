@@ -17,6 +17,7 @@ from kit.machines.cranes import crane
 from kit.machines.crawler import merged
 from kit.machines.dozers import dozer
 from kit.machines.excavators import Features, excavator
+from kit.machines.graders import grader
 from kit.machines.lift_trucks import lift_truck
 from kit.machines.rigid_trucks import rigid_truck
 from kit.machines.rollers import roller
@@ -51,6 +52,8 @@ def drawn(kind: str, seed: int, *, segments: int = 32, hollow: bool = True) -> M
             return rigid_truck(seed, embedded=embedded)
         if kind == "roller":
             return roller(seed, embedded=embedded)
+        if kind == "grader":
+            return grader(seed, embedded=embedded)
         if kind == "dozer":
             return dozer(seed, embedded=embedded)
         if kind == "crane":
