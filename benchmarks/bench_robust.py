@@ -34,8 +34,8 @@ sys.path[:0] = [str(ROOT / "src"), str(ROOT / "tests"), str(ROOT / "benchmarks")
 
 from bench_strangers import solved  # noqa: E402
 from kit.scene import Scene, Surface, TrueJoint, centres_of  # noqa: E402
-from yellowiron.cad.read import read_cad  # noqa: E402
 from yellowiron.cad.mesh.assembly import shape_of  # noqa: E402
+from yellowiron.cad.read import read_cad  # noqa: E402
 from yellowiron.library import load_template  # noqa: E402
 from yellowiron.model.assembly import Assembly, Part  # noqa: E402
 from yellowiron.model.geometry import Mesh, Shape  # noqa: E402
@@ -45,6 +45,7 @@ KINDS = (
     "mini_excavator", "mobile_crane", "rigid_dump_truck", "roller", "skid_steer", "telehandler", "wheel_loader",
     "wheeled_excavator",
 )  # fmt: skip
+TYPES = {"mini_excavator": "excavator"}
 OFF = 0.02
 """Metres by which pins are moved."""
 
@@ -62,6 +63,11 @@ class Drawn:
     rams: tuple[tuple[str, ...], ...]
     height: float
     nests: frozenset[str]
+
+    @property
+    def type(self) -> str:
+        """The equipment type."""
+        return TYPES.get(self.kind, self.kind)
 
     def of(self, bodies: tuple[str, ...]) -> list[Part]:
         """The parts that are the bodies themselves, without pins."""
@@ -94,7 +100,7 @@ def example(folder: Path, kind: str) -> Drawn:
     rows = zip(assembly.parts, document["parts"].values(), strict=True)
     truth = {part.id: (row["role"] or "", carriers.get(row["body"], row["body"])) for part, row in rows}
     joints = {n: j for n, j in document["joints"].items() if not {j["body0"], j["body1"]} & carriers.keys()}
-    kinds = {r.name: r.kind for r in load_template(kind).roles}
+    kinds = {r.name: r.kind for r in load_template(TYPES.get(kind, kind)).roles}
     ends = [(joints[s]["body0"], joints[s]["body1"]) for s in document["cylinders"] if s in joints]
     halves = [tuple(b for b in pair if kinds.get(b) in ("barrel", "rod")) for pair in ends]
     up = np.array(document["frame"])[2]
@@ -173,7 +179,7 @@ def pins(drawn: Drawn, rng: np.random.Generator, count: int) -> tuple[Drawn, set
 
 def wheel(drawn: Drawn, rng: np.random.Generator) -> tuple[Drawn, set[str]]:
     """One wheel is drawn as boxes."""
-    kinds = {r.name: r.kind for r in load_template(drawn.kind).roles}
+    kinds = {r.name: r.kind for r in load_template(drawn.type).roles}
     bodies = sorted({b for _, b in drawn.truth.values() if kinds.get(b) == "wheel"})
     if not bodies:
         return drawn, set()
@@ -183,7 +189,7 @@ def wheel(drawn: Drawn, rng: np.random.Generator) -> tuple[Drawn, set[str]]:
 
 def body(drawn: Drawn, rng: np.random.Generator) -> tuple[Drawn, set[str]]:
     """One body is not drawn."""
-    root = load_template(drawn.kind).root
+    root = load_template(drawn.type).root
     bodies = sorted({b for _, b in drawn.truth.values() if b and b != root})
     gone = bodies[int(rng.integers(len(bodies)))]
     parts = {p.id for p in drawn.assembly.parts if drawn.truth[p.id][1] == gone}
@@ -239,13 +245,19 @@ def scene(drawn: Drawn, seed: int, *, names: str) -> Scene:
     truth = Surface(np.concatenate(points), np.concatenate(areas), np.concatenate(label), tuple(labels))
     there = {b for _, b in labels}
     joints = tuple(
-        TrueJoint(n, j["type"], (j["body0"], j["body1"]), tuple(j["anchor"]), tuple(j["axis"]),
-                  tolerance=drawn.height if n in drawn.nests else None)
+        TrueJoint(
+            n,
+            j["type"],
+            (j["body0"], j["body1"]),
+            tuple(j["anchor"]),
+            tuple(j["axis"]),
+            tolerance=drawn.height if n in drawn.nests else None,
+        )
         for n, j in sorted(drawn.joints.items())
         if {j["body0"], j["body1"]} <= there and j["type"] != "spherical"
     )
     model = assembly if names == "with" else nameless(assembly, seed)[0]
-    return Scene(model, truth, joints, drawn.height, drawn.kind)
+    return Scene(model, truth, joints, drawn.height, drawn.type)
 
 
 def case(sound: Drawn, fault: str, seed: int, names: str, limit: int) -> dict[str, Any]:

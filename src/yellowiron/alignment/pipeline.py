@@ -45,6 +45,7 @@ from yellowiron.alignment.features.tracks import Track, tracks_of
 from yellowiron.alignment.features.wheels import spare_wheels
 from yellowiron.alignment.files.decisions import decided
 from yellowiron.alignment.files.heard import heard_of_whole, unlikely
+from yellowiron.alignment.fusion.named_bodies import WORDS, with_named
 from yellowiron.alignment.fusion.reading import AS_GOOD, fused
 from yellowiron.alignment.labelling.bystanders import among_strangers, doubted
 from yellowiron.alignment.labelling.coupler import with_couplers
@@ -57,6 +58,7 @@ from yellowiron.alignment.labelling.review import name_findings, review_findings
 from yellowiron.alignment.labelling.suspects import suspect_bodies
 from yellowiron.alignment.labelling.track_places import on_tracks, track_places, without_tracks
 from yellowiron.alignment.labelling.undercut import too_low, undercut
+from yellowiron.alignment.labelling.unplayed import maybe_unplayed
 from yellowiron.alignment.structure.observation import Observation, observe
 from yellowiron.alignment.tolerances import CONTACT
 from yellowiron.alignment.undrawn import undrawn
@@ -155,6 +157,12 @@ def align(
         observation, scores = wide, named
     else:
         answer, frame = _framed(answer, observation, tracks, facing)
+    rivals = {} if is_whole(answer) or answer.judged is not None else rivals_of(answer)
+    added: frozenset[str] = frozenset()
+    named = name_scores(tuple(s.part for s in observation.solids), plain, template)
+    if answer.judged is None and agreement >= BELIEVED:
+        answer, number, added = with_named(answer, observation, named, frame)
+        rivals = {number[c]: body for c, body in rivals.items()}
     low = undercut(observation, answer)
     propagation = Propagation(
         observation,
@@ -162,18 +170,22 @@ def align(
         scores,
         frame.matrix[2, :3] if frame is not None else np.array([0.0, 0.0, 1.0]),
         never=too_low(observation, answer),
-        rivals={} if is_whole(answer) or answer.judged is not None else rivals_of(answer),
+        rivals=rivals,
         suspects={}
         if answer.judged is not None
         else {
             **suspect_bodies(answer.solution, answer.template, _surfaces(observation, answer)),
             **dict.fromkeys(low, "what is carried reaches as low as its carrier: parts of one are the other's"),
             **(dict.fromkeys(answer.solution.body_of.values(), LEFT_OVER) if strained else {}),
+            **dict.fromkeys(sorted(added), WORDS),
         },
     )
     places = with_couplers(propagation.run(), observation.solids, answer)
     places = with_rams(places, observation, answer, frame)
     places = among_strangers(places, observation.solids) if answer.judged is not None else places
+    played = {place.body for place in places.values()}
+    heeded = named if agreement >= BELIEVED else [{} for _ in observation.solids]
+    places = maybe_unplayed(places, observation.solids, heeded, observation.wheels, answer.template, played)
     apart |= {observation.solids[i].part.id: metres for i, metres in propagation.apart.items()}
     by_id = {observation.solids[i].part.id: place for i, place in places.items()}
     whole = as_drawn(choose(template, answer.choices), set(answer.solution.body_of.values()))

@@ -48,6 +48,12 @@ def linkages_of(template: Template) -> tuple[dict[str, int], frozenset[int], fro
     return found, frozenset(upright), frozenset(found.values()) - upright - steers
 
 
+def steering_joints(template: Template) -> frozenset[str]:
+    """The hinges of the closed linkages that steer wheels."""
+    linkage_of, frames, tools = linkages_of(template)
+    return frozenset(joint for joint, number in linkage_of.items() if number not in frames | tools)
+
+
 def twin_linkages(template: Template, linkage_of: Mapping[str, int]) -> set[tuple[int, int]]:
     """The pairs of linkages of which one is the other's mirror image, such as two stabilizers': they lie alike."""
     by_pair = {frozenset(template.bodies_of(j)): linkage_of[j.name] for j in template.joints if j.name in linkage_of}

@@ -397,15 +397,15 @@ def _answer(
 def _solution(structure: Structure, body_of: Mapping[int, str], best: _Best, stance: Stance) -> Solution:
     """The joints that exact axes are there for, in a direction that they may have: of several between two bodies the
     one that most pins run through."""
-    linkage_of, frames, _ = linkages_of(best.template)
+    linkage_of, _, tools = linkages_of(best.template)
     slewing = slewing_joints(best.template)
 
     def may_be(joint: JointTemplate, hinge: Hinge) -> bool:
         _, across, upright = np.abs(stance.rotation @ structure.axes[hinge.axis].direction)
         if joint.name in slewing:
             return bool(upright > ALIKE)
-        turned = linkage_of.get(joint.name) in frames
-        return joint.name not in linkage_of or bool(across < NOT_ACROSS if turned else across > ALIKE)
+        level = linkage_of.get(joint.name) in tools
+        return joint.name not in linkage_of or bool(across > ALIKE if level else across < NOT_ACROSS)
 
     hinge_of: dict[str, int] = {}
     slide_of: dict[str, int] = {}
