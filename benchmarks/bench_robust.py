@@ -53,8 +53,7 @@ OFF = 0.02
 @dataclass(frozen=True, eq=False)
 class Drawn:
     """An example: its model, the body and role of each part (by id), the joints of its truth, the
-    halves of each hydraulic cylinder, its height in metres, and the slides that no cylinder is: they are lines only in
-    direction."""
+    halves of each hydraulic cylinder, its height in metres, and the slides of which only the direction is told."""
 
     kind: str
     assembly: Assembly
@@ -105,7 +104,11 @@ def example(folder: Path, kind: str) -> Drawn:
     halves = [tuple(b for b in pair if kinds.get(b) in ("barrel", "rod")) for pair in ends]
     up = np.array(document["frame"])[2]
     heights = np.concatenate([assembly.points_of(p) @ up[:3] for p in assembly.parts])
-    nests = frozenset(n for n, j in joints.items() if j["type"] == "prismatic") - document["cylinders"].keys()
+    slides = {n: j for n, j in joints.items() if j["type"] == "prismatic"}
+    # Some truths have the anchors of twins in the middle of the machine.
+    nests = frozenset(
+        n for n, j in slides.items() if n not in document["cylinders"] or j["body1"].endswith(("_l", "_r"))
+    )
     return Drawn(kind, assembly, truth, joints, tuple(h for h in halves if h), float(np.ptp(heights)), nests)
 
 

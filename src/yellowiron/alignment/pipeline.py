@@ -32,6 +32,7 @@ from yellowiron.alignment.assignment.names import name_scores
 from yellowiron.alignment.assignment.root_fallback import with_root
 from yellowiron.alignment.assignment.search import BELIEVED, Search, variants_of
 from yellowiron.alignment.assignment.sheet_weights import sheet_findings
+from yellowiron.alignment.assignment.sides import twin_role
 from yellowiron.alignment.assignment.weights import side_weights
 from yellowiron.alignment.axes.levers import without_lever
 from yellowiron.alignment.axes.unfound import axis_findings, lines_of, rough_axes, unfound_axes
@@ -45,7 +46,7 @@ from yellowiron.alignment.features.tracks import Track, tracks_of
 from yellowiron.alignment.features.wheels import spare_wheels
 from yellowiron.alignment.files.decisions import decided
 from yellowiron.alignment.files.heard import heard_of_whole, unlikely
-from yellowiron.alignment.fusion.named_bodies import WORDS, with_named
+from yellowiron.alignment.fusion.named_bodies import WORDS, agreed, with_named, without_misnamed
 from yellowiron.alignment.fusion.reading import AS_GOOD, fused
 from yellowiron.alignment.labelling.bystanders import among_strangers, doubted
 from yellowiron.alignment.labelling.coupler import with_couplers
@@ -88,6 +89,8 @@ BETTER = 150.0
 FAR_BETTER = 0.6
 """… or none do, and it makes of the contacts less than this share of what it makes of another reading. Of what contacts
 told rightly of six loaders' work equipment it made 0.77 to 1, of 741 parts of an artist that they told wrongly 0.41."""
+AGREED = 0.9
+"""Where names that are heard agree with the contacts' bodies on this share of all that is drawn, these stand."""
 HEARD = 0.9
 """Names trusted so far go before contacts that they contradict and that did not find the whole machine."""
 
@@ -148,19 +151,27 @@ def align(
     # Joints that are held while much of what is drawn is left over may be another machine's.
     strained = held and share < STRAINED and not is_whole(answer)
     judged: _Judged | None = None
+    told_so: Answer | None = None
     if not held or contradicted or (strained and any(scores)):
         wide = look(CONTACT[-1])
         named = name_scores(tuple(s.part for s in wide.solids), plain, template)
         judged = _fused(answer, wide, named, plain, choices, edited, tracks, facing)
+        _, same = agreed(answer, observation, judged.answer, wide)
+        if judged.trust >= HEARD and same >= AGREED and any(named):
+            # Two readings that agree are one: it is no other machine that the contacts found.
+            strained, agreement, told_so, judged = False, max(agreement, judged.trust), judged.answer, None
     if judged is not None and (not explained or judged.goes_before(held=held, named=any(named))):
         answer, frame, agreement = judged.answer, judged.frame, judged.trust
         observation, scores = wide, named
     else:
         answer, frame = _framed(answer, observation, tracks, facing)
+        named = name_scores(tuple(s.part for s in observation.solids), plain, template)
     rivals = {} if is_whole(answer) or answer.judged is not None else rivals_of(answer)
     added: frozenset[str] = frozenset()
-    named = name_scores(tuple(s.part for s in observation.solids), plain, template)
-    if answer.judged is None and agreement >= BELIEVED:
+    if answer.judged is None and agreement >= BELIEVED and not is_whole(answer):
+        if told_so is not None:
+            answer, _ = agreed(answer, observation, told_so, wide)
+        answer = without_misnamed(answer, observation, named)
         answer, number, added = with_named(answer, observation, named, frame)
         rivals = {number[c]: body for c, body in rivals.items()}
     low = undercut(observation, answer)
@@ -183,7 +194,7 @@ def align(
     places = with_couplers(propagation.run(), observation.solids, answer)
     places = with_rams(places, observation, answer, frame)
     places = among_strangers(places, observation.solids) if answer.judged is not None else places
-    played = {place.body for place in places.values()}
+    played = {place.body for place in places.values()} - added
     heeded = named if agreement >= BELIEVED else [{} for _ in observation.solids]
     places = maybe_unplayed(places, observation.solids, heeded, observation.wheels, answer.template, played)
     apart |= {observation.solids[i].part.id: metres for i, metres in propagation.apart.items()}
@@ -383,8 +394,13 @@ def _framed(
     if frame is not None and solution.body_of:
         sided = side_weights(solids, structure, template, solution, frame, answer.unary)
         if sided != answer.unary:
+            # Where several bodies could as well be one, it stays what it was.
+            stays = {(c, b) for c, b in solution.body_of.items() if twin_role(b) is None}
+            sided = {**sided, **{key: sided.get(key, 0) + 1 for key in stays}}
             told = solve(structure, template, unary=sided, barred=answer.barred)
-            solution = told if told is not None and told.body_of else solution
+            if told is not None and told.body_of:
+                more = len(stays & set(told.body_of.items()))
+                solution = replace(told, score=told.score - more, objective=told.objective - more)
             # What spoke against a person's word is not solved away by obeying it.
             against = frame.against
             frame = machine_frame(solids, structure, solution, observation.wheels, template, tracks, facing)

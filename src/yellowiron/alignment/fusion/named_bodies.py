@@ -14,6 +14,7 @@ from yellowiron.alignment.assignment.machine_frame import MachineFrame
 from yellowiron.alignment.assignment.sides import END, SIDE
 from yellowiron.alignment.assignment.weights import AS_GOOD
 from yellowiron.alignment.features.solids import Solid
+from yellowiron.alignment.fusion.votes import CLEARLY
 from yellowiron.alignment.structure.clusters import Cluster, Hinge, Structure
 from yellowiron.alignment.structure.observation import Observation
 from yellowiron.model.template import Template
@@ -66,6 +67,61 @@ def with_named(
     )
 
 
+def agreed(answer: Answer, observation: Observation, judged: Answer, wide: Observation) -> tuple[Answer, float]:
+    """The contacts' `answer` without the bodies that the `judged` one says are others, and the share of all that is
+    drawn of which both say the same; left and right, front and rear taken as one: which is which a frame tells, and not
+    the joints. `observation`, `wide`: what the answers are of."""
+    told = {wide.solids[i].part.id: _plain(what.body) for i, what in (judged.judged or {}).items()}
+    kept: dict[int, str] = {}
+    share = 0.0
+    for c, body in answer.solution.body_of.items():
+        solids = [observation.solids[i] for i in sorted(answer.structure.clusters[c].members)]
+        same = sum(s.surface for s in solids if told.get(s.part.id) == _plain(body))
+        other = sum(s.surface for s in solids if told.get(s.part.id, _plain(body)) != _plain(body))
+        if same >= other:
+            kept[c] = body
+            share += same
+    return _only(answer, kept), share / (sum(s.surface for s in wide.solids) or 1.0)
+
+
+def without_misnamed(answer: Answer, observation: Observation, scores: Sequence[Mapping[str, float]]) -> Answer:
+    """The answer without the bodies that hang on no more than half of their joints and of which most is clearly called
+    another: any piece on a pin or two is as good. `scores`: by solid, what its names say, that are to be believed."""
+    found = {*answer.solution.hinge_of, *answer.solution.slide_of}
+    kept: dict[int, str] = {}
+    for c, body in answer.solution.body_of.items():
+        cluster = answer.structure.clusters[c]
+        joints = [j.name for j in answer.template.joints if body in answer.template.bodies_of(j)]
+        firm = cluster.kind or body == answer.template.root or 2 * len(found & {*joints}) > len(joints)
+        solids = [observation.solids[i] for i in sorted(cluster.members)] if not firm else []
+        other = sum(s.surface for s in solids if _speaks_of_others(scores[s.index], body))
+        if other <= 0.5 * sum(s.surface for s in solids):
+            kept[c] = body
+    return _only(answer, kept) if len(kept) < len(answer.solution.body_of) else answer
+
+
+def _speaks_of_others(said: Mapping[str, float], body: str) -> bool:
+    best = max(said.values(), default=0.0)
+    return best >= CLEARLY and all(_plain(b) != _plain(body) for b, score in said.items() if score > best - AS_GOOD)
+
+
+def _only(answer: Answer, kept: Mapping[int, str]) -> Answer:
+    """The answer with these bodies alone (cluster → body), and the joints between them."""
+    bodies, template, solution = set(kept.values()), answer.template, answer.solution
+    there = {j.name for j in template.joints if set(template.bodies_of(j)) <= bodies}
+    solution = replace(
+        solution,
+        body_of=dict(kept),
+        hinge_of={j: k for j, k in solution.hinge_of.items() if j in there},
+        slide_of={j: k for j, k in solution.slide_of.items() if j in there},
+    )
+    return replace(answer, solution=solution)
+
+
+def _plain(body: str) -> str:
+    return SIDE.sub("", END.sub("", body))
+
+
 def _called(
     solid: Solid, said: Mapping[str, float], missing: set[str], frame: MachineFrame | None, size: float
 ) -> str | None:
@@ -73,7 +129,7 @@ def _called(
     called alike, the one that is missing there."""
     best = max(said.values(), default=0.0)
     meant = {b for b, score in said.items() if score > best - AS_GOOD} if best >= CALLED else set()
-    if len({SIDE.sub("", END.sub("", b)) for b in meant}) != 1:
+    if len({_plain(b) for b in meant}) != 1:
         return None
     left = [b for b in sorted(meant & missing) if len(meant) == 1 or _on_side(solid, b, frame, size)]
     return left[0] if len(left) == 1 else None

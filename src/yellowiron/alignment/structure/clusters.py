@@ -25,7 +25,7 @@ from yellowiron.alignment.tolerances import PARALLEL, ROUND_ARC
 
 ROUNDS = 4
 """How often a careful reading starts again without the false welds it found."""
-OWN = 0.2
+OWN = 0.05
 """A cluster of which a cylinder's half is less than this share of the surface is what carries it: a frame that a barrel
 was found to be fast on is still a frame, and a cylinder half is a ram's."""
 LONG = 6.0
