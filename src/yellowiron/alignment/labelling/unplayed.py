@@ -21,6 +21,8 @@ LEAST = 0.75
 """… if it is at least so many times as large as another one, …"""
 THIN = 0.3
 """… unless it is of less than this share of another's width."""
+MARGIN = 0.05
+"""What reaches out of an outline by no more than this share of its size is within it."""
 TURNS = 12
 """In so many directions an outline is looked at."""
 
@@ -38,6 +40,11 @@ def maybe_unplayed(
     missing = {r.name for r in template.roles if r.rigid and not r.many} - set(played)
     rolling = {r.name for r in template.roles if r.kind == "wheel" and not r.drum}
     found = dict(places)
+    outlines = [
+        solids[i]
+        for i, place in places.items()
+        if missing & rolling and place.body not in rolling and any(_like(solids[i], wheel) for wheel in wheels)
+    ]
     for i, place in places.items() if missing else ():
         said = scores[i]
         best = max(said.values(), default=0.0)
@@ -46,13 +53,19 @@ def maybe_unplayed(
             continue
         if best >= SPEAKS and meant & missing:
             words = f"by its name it may be {min(meant & missing)}, which is not found"
-        elif missing & rolling and place.body not in rolling and any(_like(solids[i], w) for w in wheels):
+        elif place.body not in rolling and any(_inside(solids[i], outline) for outline in outlines):
             words = f"it may be {min(missing & rolling)}, which is not found"
         else:
             continue
         sure = min(place.confidence, DOUBTFUL)
         found[i] = replace(place, confidence=sure, reason=f"{place.reason}; but {words}")
     return found
+
+
+def _inside(solid: Solid, outline: Solid) -> bool:
+    """Whether a solid is the outline of a wheel, or wholly within it: rims, hubs, bolts."""
+    margin = MARGIN * (outline.high - outline.low)
+    return bool((solid.low >= outline.low - margin).all() and (solid.high <= outline.high + margin).all())
 
 
 def _like(solid: Solid, wheel: Wheel) -> bool:
