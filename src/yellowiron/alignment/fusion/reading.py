@@ -385,7 +385,7 @@ def _by_name_alone(
 def _is_beside(solid: Solid, body: str, judged: Mapping[int, Judged], observation: Observation) -> bool:
     """Whether a solid is near something that was judged to be of a body: a lever in the cab is no link of a bucket."""
     own = [observation.solids[i] for i in sorted(judged) if judged[i].body == body]
-    gaps = (np.linalg.norm(np.maximum(0.0, np.maximum(s.low - solid.high, solid.low - s.high))) for s in own)
+    gaps = (float(np.linalg.norm(np.maximum(0, np.maximum(s.low - solid.high, solid.low - s.high)))) for s in own)
     return min(gaps, default=np.inf) <= BESIDE * observation.size
 
 
