@@ -89,8 +89,9 @@ BETTER = 150.0
 FAR_BETTER = 0.6
 """… or none do, and it makes of the contacts less than this share of what it makes of another reading. Of what contacts
 told rightly of six loaders' work equipment it made 0.77 to 1, of 741 parts of an artist that they told wrongly 0.41."""
-AGREED = 0.9
-"""Where names that are heard agree with the contacts' bodies on this share of all that is drawn, these stand."""
+AGREED, SPOKEN = 0.9, 0.7
+"""Where names that are heard agree with the contacts' bodies on this share of what both speak of, and that is so much
+of all that is drawn, these stand."""
 HEARD = 0.9
 """Names trusted so far go before contacts that they contradict and that did not find the whole machine."""
 
@@ -156,8 +157,8 @@ def align(
         wide = look(CONTACT[-1])
         named = name_scores(tuple(s.part for s in wide.solids), plain, template)
         judged = _fused(answer, wide, named, plain, choices, edited, tracks, facing)
-        _, same = agreed(answer, observation, judged.answer, wide)
-        if judged.trust >= HEARD and same >= AGREED and any(named):
+        _, same, spoken = agreed(answer, observation, judged.answer, wide)
+        if judged.trust >= HEARD and same >= AGREED and spoken >= SPOKEN and any(named):
             # Two readings that agree are one: it is no other machine that the contacts found.
             strained, agreement, told_so, judged = False, max(agreement, judged.trust), judged.answer, None
     if judged is not None and (not explained or judged.goes_before(held=held, named=any(named))):
@@ -168,9 +169,9 @@ def align(
         named = name_scores(tuple(s.part for s in observation.solids), plain, template)
     rivals = {} if is_whole(answer) or answer.judged is not None else rivals_of(answer)
     added: frozenset[str] = frozenset()
-    if answer.judged is None and agreement >= BELIEVED and not is_whole(answer):
+    if answer.judged is None and agreement >= BELIEVED and not strained and not is_whole(answer):
         if told_so is not None:
-            answer, _ = agreed(answer, observation, told_so, wide)
+            answer, *_ = agreed(answer, observation, told_so, wide)
         answer = without_misnamed(answer, observation, named)
         answer, number, added = with_named(answer, observation, named, frame)
         rivals = {number[c]: body for c, body in rivals.items()}

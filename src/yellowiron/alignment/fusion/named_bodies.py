@@ -3,7 +3,7 @@ stands beside it. The machine that was found stays as it is; what is added is fo
 
 from __future__ import annotations
 
-from collections.abc import Mapping, Sequence
+from collections.abc import Collection, Mapping, Sequence
 from dataclasses import replace
 
 import numpy as np
@@ -11,7 +11,7 @@ import numpy as np
 from yellowiron.alignment.assignment.answer import Answer
 from yellowiron.alignment.assignment.directions import ALIKE, linkages_of
 from yellowiron.alignment.assignment.machine_frame import MachineFrame
-from yellowiron.alignment.assignment.sides import END, SIDE
+from yellowiron.alignment.assignment.sides import END, SIDE, twin_role
 from yellowiron.alignment.assignment.weights import AS_GOOD
 from yellowiron.alignment.features.solids import Solid
 from yellowiron.alignment.fusion.votes import CLEARLY
@@ -67,42 +67,44 @@ def with_named(
     )
 
 
-def agreed(answer: Answer, observation: Observation, judged: Answer, wide: Observation) -> tuple[Answer, float]:
-    """The contacts' `answer` without the bodies that the `judged` one says are others, and the share of all that is
-    drawn of which both say the same; left and right, front and rear taken as one: which is which a frame tells, and not
-    the joints. `observation`, `wide`: what the answers are of."""
+def agreed(answer: Answer, observation: Observation, judged: Answer, wide: Observation) -> tuple[Answer, float, float]:
+    """The contacts' `answer` without the bodies that the `judged` one says are others, the share on which both say the
+    same of what both speak of, and how much of all that is drawn that is; left and right, front and rear taken as one:
+    which is which a frame tells, and not the joints. `observation`, `wide`: what the answers are of."""
     told = {wide.solids[i].part.id: _plain(what.body) for i, what in (judged.judged or {}).items()}
     kept: dict[int, str] = {}
-    share = 0.0
+    alike = unlike = 0.0
     for c, body in answer.solution.body_of.items():
         solids = [observation.solids[i] for i in sorted(answer.structure.clusters[c].members)]
         same = sum(s.surface for s in solids if told.get(s.part.id) == _plain(body))
         other = sum(s.surface for s in solids if told.get(s.part.id, _plain(body)) != _plain(body))
+        alike, unlike = alike + same, unlike + other
         if same >= other:
             kept[c] = body
-            share += same
-    return _only(answer, kept), share / (sum(s.surface for s in wide.solids) or 1.0)
+    both, total = alike + unlike, sum(s.surface for s in wide.solids)
+    return _only(answer, kept), alike / both if both else 0.0, both / total if total else 0.0
 
 
 def without_misnamed(answer: Answer, observation: Observation, scores: Sequence[Mapping[str, float]]) -> Answer:
     """The answer without the bodies that hang on no more than half of their joints and of which most is clearly called
-    another: any piece on a pin or two is as good. `scores`: by solid, what its names say, that are to be believed."""
+    one that it lacks: any piece on a pin or two is as good. `scores`: by solid, what its names say, that are to be believed."""
     found = {*answer.solution.hinge_of, *answer.solution.slide_of}
+    played = {_plain(body) for body in answer.solution.body_of.values() if twin_role(body) is None}
     kept: dict[int, str] = {}
     for c, body in answer.solution.body_of.items():
         cluster = answer.structure.clusters[c]
         joints = [j.name for j in answer.template.joints if body in answer.template.bodies_of(j)]
         firm = cluster.kind or body == answer.template.root or 2 * len(found & {*joints}) > len(joints)
         solids = [observation.solids[i] for i in sorted(cluster.members)] if not firm else []
-        other = sum(s.surface for s in solids if _speaks_of_others(scores[s.index], body))
+        other = sum(s.surface for s in solids if _speaks_of_others(scores[s.index], {_plain(body), *played}))
         if other <= 0.5 * sum(s.surface for s in solids):
             kept[c] = body
     return _only(answer, kept) if len(kept) < len(answer.solution.body_of) else answer
 
 
-def _speaks_of_others(said: Mapping[str, float], body: str) -> bool:
+def _speaks_of_others(said: Mapping[str, float], bodies: Collection[str]) -> bool:
     best = max(said.values(), default=0.0)
-    return best >= CLEARLY and all(_plain(b) != _plain(body) for b, score in said.items() if score > best - AS_GOOD)
+    return best >= CLEARLY and all(_plain(b) not in bodies for b, score in said.items() if score > best - AS_GOOD)
 
 
 def _only(answer: Answer, kept: Mapping[int, str]) -> Answer:
