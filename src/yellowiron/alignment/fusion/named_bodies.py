@@ -87,7 +87,8 @@ def agreed(answer: Answer, observation: Observation, judged: Answer, wide: Obser
 
 def without_misnamed(answer: Answer, observation: Observation, scores: Sequence[Mapping[str, float]]) -> Answer:
     """The answer without the bodies that hang on no more than half of their joints and of which most is clearly called
-    one that it lacks: any piece on a pin or two is as good. `scores`: by solid, what its names say, that are to be believed."""
+    one that it lacks: any piece on a pin or two is as good. `scores`: by solid, what its names say, that are to be
+    believed."""
     found = {*answer.solution.hinge_of, *answer.solution.slide_of}
     played = {_plain(body) for body in answer.solution.body_of.values() if twin_role(body) is None}
     kept: dict[int, str] = {}
