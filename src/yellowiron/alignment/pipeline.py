@@ -59,7 +59,7 @@ from yellowiron.alignment.labelling.review import name_findings, review_findings
 from yellowiron.alignment.labelling.suspects import suspect_bodies
 from yellowiron.alignment.labelling.track_places import on_tracks, track_places, without_tracks
 from yellowiron.alignment.labelling.undercut import too_low, undercut
-from yellowiron.alignment.labelling.unplayed import maybe_unplayed
+from yellowiron.alignment.labelling.unplayed import maybe_unplayed, otherwise
 from yellowiron.alignment.structure.observation import Observation, observe
 from yellowiron.alignment.tolerances import CONTACT
 from yellowiron.alignment.undrawn import undrawn
@@ -195,6 +195,9 @@ def align(
     places = with_couplers(propagation.run(), observation.solids, answer)
     places = with_rams(places, observation, answer, frame)
     places = among_strangers(places, observation.solids) if answer.judged is not None else places
+    if told_so is not None:
+        told_of = {wide.solids[i].part.id: what.body for i, what in (told_so.judged or {}).items()}
+        places = otherwise(places, observation.solids, told_of)
     played = {place.body for place in places.values()} - added
     heeded = named if agreement >= BELIEVED else [{} for _ in observation.solids]
     places = maybe_unplayed(places, observation.solids, heeded, observation.wheels, answer.template, played)

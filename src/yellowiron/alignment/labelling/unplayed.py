@@ -62,6 +62,17 @@ def maybe_unplayed(
     return found
 
 
+def otherwise(places: Mapping[int, Place], solids: Sequence[Solid], told: Mapping[str, str]) -> dict[int, Place]:
+    """The places, solid → place, those doubtful of which another reading says another body; `told`: part id → that."""
+    found = dict(places)
+    for i, place in places.items():
+        other = told.get(solids[i].part.id, place.body)
+        if other != place.body:
+            words = f"{place.reason}; but names, place and shape together say {other}"
+            found[i] = replace(place, confidence=min(place.confidence, DOUBTFUL), reason=words, runner_up=other)
+    return found
+
+
 def _inside(solid: Solid, outline: Solid) -> bool:
     """Whether a solid is the outline of a wheel, or wholly within it: rims, hubs, bolts."""
     margin = MARGIN * (outline.high - outline.low)
