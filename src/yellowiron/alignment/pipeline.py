@@ -158,7 +158,7 @@ def align(
         named = name_scores(tuple(s.part for s in wide.solids), plain, template)
         judged = _fused(answer, wide, named, plain, choices, edited, tracks, facing)
         _, same, spoken = agreed(answer, observation, judged.answer, wide)
-        if judged.trust >= HEARD and same >= AGREED and spoken >= SPOKEN and any(named):
+        if held and judged.trust >= HEARD and same >= AGREED and spoken >= SPOKEN and any(named):
             # Two readings that agree are one: it is no other machine that the contacts found.
             strained, agreement, told_so, judged = False, max(agreement, judged.trust), judged.answer, None
     if judged is not None and (not explained or judged.goes_before(held=held, named=any(named))):
