@@ -32,6 +32,7 @@ from yellowiron.alignment.assignment.names import name_scores
 from yellowiron.alignment.assignment.root_fallback import with_root
 from yellowiron.alignment.assignment.search import BELIEVED, Search, variants_of
 from yellowiron.alignment.assignment.sheet_weights import sheet_findings
+from yellowiron.alignment.assignment.sides import twin_role
 from yellowiron.alignment.assignment.weights import side_weights
 from yellowiron.alignment.axes.levers import without_lever
 from yellowiron.alignment.axes.unfound import axis_findings, lines_of, rough_axes, unfound_axes
@@ -39,24 +40,24 @@ from yellowiron.alignment.copies import copies_of
 from yellowiron.alignment.facing import Facing
 from yellowiron.alignment.features.distance import Touch, touch_of
 from yellowiron.alignment.features.separate_parts import separate_parts
-from yellowiron.alignment.features.solids import size_of, solids_of
+from yellowiron.alignment.features.solids import solids_of
 from yellowiron.alignment.features.telescopes import Nest
-from yellowiron.alignment.features.tracks import Track, tracks_of
-from yellowiron.alignment.features.wheels import spare_wheels
+from yellowiron.alignment.features.tracks import Track
 from yellowiron.alignment.files.decisions import decided
 from yellowiron.alignment.files.heard import heard_of_whole, unlikely
+from yellowiron.alignment.fusion.named_bodies import WORDS, agreed, with_named, without_misnamed
 from yellowiron.alignment.fusion.reading import AS_GOOD, fused
 from yellowiron.alignment.labelling.bystanders import among_strangers, doubted
 from yellowiron.alignment.labelling.coupler import with_couplers
 from yellowiron.alignment.labelling.fittings import fittings_of, sitting
-from yellowiron.alignment.labelling.further_axles import FurtherWheel, axle_tubes, further_wheels
+from yellowiron.alignment.labelling.further_axles import axle_tubes, further_wheels, spare_of
 from yellowiron.alignment.labelling.place import pin_role
 from yellowiron.alignment.labelling.propagation import Propagation
 from yellowiron.alignment.labelling.rams import with_rams
 from yellowiron.alignment.labelling.result import Labels, to_alignment
 from yellowiron.alignment.labelling.review import name_findings, review_findings
-from yellowiron.alignment.labelling.suspects import suspect_bodies
-from yellowiron.alignment.labelling.track_places import on_tracks, track_places, without_tracks
+from yellowiron.alignment.labelling.suspects import maybe_unplayed, otherwise, suspect_bodies
+from yellowiron.alignment.labelling.track_places import on_tracks, track_places, tracks_in, upright, without_tracks
 from yellowiron.alignment.labelling.undercut import too_low, undercut
 from yellowiron.alignment.structure.observation import Observation, observe
 from yellowiron.alignment.tolerances import CONTACT
@@ -64,7 +65,6 @@ from yellowiron.alignment.undrawn import undrawn
 from yellowiron.model.alignment import DECIDED, Alignment, Vector
 from yellowiron.model.assembly import Assembly
 from yellowiron.model.errors import AlignmentError
-from yellowiron.model.geometry import Floats
 from yellowiron.model.rows import as_drawn
 from yellowiron.model.specification import Specifications
 from yellowiron.model.template import Template, choose
@@ -87,6 +87,9 @@ BETTER = 150.0
 FAR_BETTER = 0.6
 """… or none do, and it makes of the contacts less than this share of what it makes of another reading. Of what contacts
 told rightly of six loaders' work equipment it made 0.77 to 1, of 741 parts of an artist that they told wrongly 0.41."""
+AGREED, SPOKEN = 0.9, 0.7
+"""Where names that are heard agree with the contacts' bodies on this share of what both speak of, and that is so much
+of all that is drawn, these stand."""
 HEARD = 0.9
 """Names trusted so far go before contacts that they contradict and that did not find the whole machine."""
 
@@ -123,14 +126,14 @@ def align(
     wanted = frozenset(part for part, role in edited.items() if role and part in apart)
     apart = dict(separate_parts(single, wanted) if wanted else apart)
     tracking = _without(single, apart)
-    tracked, tracks = _tracked(tracking, template)
+    tracked, tracks = tracks_in(tracking, template)
     machine = _without(tracking, set(tracked.values()))
     fittings = fittings_of(machine) - edited.keys()
     machine = _without(machine, fittings)
     plain = without_tracks(template)
-    further = [w for w in _spare(machine, plain) if not w.parts & edited.keys()]
+    further = [w for w in spare_of(machine, plain) if not w.parts & edited.keys()]
     machine = _without(machine, frozenset().union(*(w.parts for w in further)))
-    up = _upright(tracks)
+    up = upright(tracks)
     rows = tuple(solids_of(tracking)[i] for i in tracked)
 
     @functools.cache
@@ -147,15 +150,29 @@ def align(
     # Joints that are held while much of what is drawn is left over may be another machine's.
     strained = held and share < STRAINED and not is_whole(answer)
     judged: _Judged | None = None
+    told_so: Answer | None = None
     if not held or contradicted or (strained and any(scores)):
         wide = look(CONTACT[-1])
         named = name_scores(tuple(s.part for s in wide.solids), plain, template)
         judged = _fused(answer, wide, named, plain, choices, edited, tracks, facing)
+        _, same, spoken = agreed(answer, observation, judged.answer, wide)
+        if held and judged.trust >= HEARD and same >= AGREED and spoken >= SPOKEN and any(named):
+            # Two readings that agree are one: it is no other machine that the contacts found.
+            strained, agreement, told_so, judged = False, max(agreement, judged.trust), judged.answer, None
     if judged is not None and (not explained or judged.goes_before(held=held, named=any(named))):
         answer, frame, agreement = judged.answer, judged.frame, judged.trust
         observation, scores = wide, named
     else:
         answer, frame = _framed(answer, observation, tracks, facing)
+        named = name_scores(tuple(s.part for s in observation.solids), plain, template)
+    rivals = {} if is_whole(answer) or answer.judged is not None else rivals_of(answer)
+    added: frozenset[str] = frozenset()
+    if answer.judged is None and agreement >= BELIEVED and not strained and not is_whole(answer):
+        if told_so is not None:
+            answer, *_ = agreed(answer, observation, told_so, wide)
+        answer = without_misnamed(answer, observation, named)
+        answer, number, added = with_named(answer, observation, named, frame)
+        rivals = {number[c]: body for c, body in rivals.items()}
     low = undercut(observation, answer)
     propagation = Propagation(
         observation,
@@ -163,18 +180,25 @@ def align(
         scores,
         frame.matrix[2, :3] if frame is not None else np.array([0.0, 0.0, 1.0]),
         never=too_low(observation, answer),
-        rivals={} if is_whole(answer) or answer.judged is not None else rivals_of(answer),
+        rivals=rivals,
         suspects={}
         if answer.judged is not None
         else {
             **suspect_bodies(answer.solution, answer.template, _surfaces(observation, answer)),
             **dict.fromkeys(low, "what is carried reaches as low as its carrier: parts of one are the other's"),
             **(dict.fromkeys(answer.solution.body_of.values(), LEFT_OVER) if strained else {}),
+            **dict.fromkeys(sorted(added), WORDS),
         },
     )
     places = with_couplers(propagation.run(), observation.solids, answer)
     places = with_rams(places, observation, answer, frame)
     places = among_strangers(places, observation.solids) if answer.judged is not None else places
+    if told_so is not None:
+        told_of = {wide.solids[i].part.id: what.body for i, what in (told_so.judged or {}).items()}
+        places = otherwise(places, observation.solids, told_of)
+    played = {place.body for place in places.values()} - added
+    heeded = named if agreement >= BELIEVED else [{} for _ in observation.solids]
+    places = maybe_unplayed(places, observation.solids, heeded, observation.wheels, answer.template, played)
     apart |= {observation.solids[i].part.id: metres for i, metres in propagation.apart.items()}
     by_id = {observation.solids[i].part.id: place for i, place in places.items()}
     whole = as_drawn(choose(template, answer.choices), set(answer.solution.body_of.values()))
@@ -380,8 +404,13 @@ def _framed(
     if frame is not None and solution.body_of:
         sided = side_weights(solids, structure, template, solution, frame, answer.unary)
         if sided != answer.unary:
+            # Where several bodies could as well be one, it stays what it was.
+            stays = {(c, b) for c, b in solution.body_of.items() if twin_role(b) is None}
+            sided = {**sided, **{key: sided.get(key, 0) + 1 for key in stays}}
             told = solve(structure, template, unary=sided, barred=answer.barred)
-            solution = told if told is not None and told.body_of else solution
+            if told is not None and told.body_of:
+                more = len(stays & set(told.body_of.items()))
+                solution = replace(told, score=told.score - more, objective=told.objective - more)
             # What spoke against a person's word is not solved away by obeying it.
             against = frame.against
             frame = machine_frame(solids, structure, solution, observation.wheels, template, tracks, facing)
@@ -449,34 +478,3 @@ def _axes(answer: Answer, observation: Observation) -> dict[str, tuple[Vector, V
 def _carried(answer: Answer, joint: str) -> str | None:
     """The second body of a joint."""
     return answer.template.bodies_of(answer.template.joint(joint))[1]
-
-
-def _spare(assembly: Assembly, template: Template) -> tuple[FurtherWheel, ...]:
-    """The wheels of axles that the type does not have."""
-    solids = solids_of(assembly)
-    found = spare_wheels(solids, template, CONTACT[-1] * size_of(solids)) if solids else []
-
-    def ids(members: Collection[int]) -> frozenset[str]:
-        return frozenset(solids[i].part.id for i in members)
-
-    return tuple(
-        FurtherWheel(ids(w.members), ids(w.tyres), w.center, w.direction, solids[w.beside].part.id) for w in found
-    )
-
-
-def _upright(tracks: list[Track]) -> Floats | None:
-    """The direction across the tracks and their length."""
-    return np.asarray(np.cross(tracks[0].axis, tracks[0].along), dtype=np.float64) if tracks else None
-
-
-def _tracked(assembly: Assembly, template: Template) -> tuple[dict[int, str], list[Track]]:
-    """The parts of tracks, solid → id, and the tracks, where the template has any."""
-    return _tracks(assembly) if any(r.kind == "shoe" for r in template.roles) else ({}, [])
-
-
-@remembered
-def _tracks(assembly: Assembly) -> tuple[dict[int, str], list[Track]]:
-    solids = solids_of(assembly)
-    tracks = tracks_of(solids)
-    inside = {i for t in tracks for group in (*t.shoes, *(w.members for w in t.wheels)) for i in group}
-    return {i: solids[i].part.id for i in sorted(inside)}, tracks

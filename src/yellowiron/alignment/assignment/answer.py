@@ -98,6 +98,9 @@ def drawn_share(answer: Answer, solids: Sequence[Solid]) -> float:
     played = set(solution.body_of.values())
     moving = [j for j in template.joints if j.type in MOVING]
     possible = {j.name for j in moving if set(template.bodies_of(j)) <= played}
+    # Twin cylinders, and a ram with the sections that it moves, are one slide.
+    slides = {frozenset(slide[:2]) for slide in structure.slides}
+    sliding = {frozenset(structure.slides[number][:2]) for number in solution.slide_of.values()}
     graph = nx.Graph([pair for j in moving if j.name in found and None not in (pair := template.bodies_of(j))])
     if not nx.cycle_basis(graph):
         return 0.0
@@ -106,7 +109,7 @@ def drawn_share(answer: Answer, solids: Sequence[Solid]) -> float:
     return min(
         _share(len(found & possible), len(possible)),
         _share(len(explained_pins(answer)), len(pins)),
-        _share(len(solution.slide_of), len(structure.slides)),
+        _share(len(sliding), len(slides)),
         _share(sum(area[c] for c in solution.body_of), sum(area)),
     )
 

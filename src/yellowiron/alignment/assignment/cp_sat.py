@@ -167,18 +167,29 @@ def _linked(structure: Structure) -> frozenset[int]:
     return frozenset({i for h in structure.hinges for i in (h.a, h.b)} | {i for s in structure.slides for i in s[:2]})
 
 
-def without_islands(solution: Solution, template: Template) -> Solution:
+def without_islands(
+    solution: Solution, template: Template, unary: Mapping[tuple[int, str], int] | None = None
+) -> Solution:
     """The solution without pairs of bodies that one hinge joins to each other and nothing to the rest: any two pieces
-    on a pin are as good. Wheels and halves of hydraulic cylinders are told by their shape, and stay."""
+    on a pin are as good; and without bodies that no joint was found of and that `unary` speaks of less than of another:
+    any piece left over is as good. Wheels and halves of hydraulic cylinders are told by their shape, and stay."""
     found = {*solution.hinge_of, *solution.slide_of}
     kinds = {r.name: r.kind for r in template.roles}
     ends = {j.name: template.bodies_of(j) for j in template.joints if j.name in found}
     graph = nx.MultiGraph([(*pair, name) for name, pair in sorted(ends.items())])
     pairs = [group for group in nx.connected_components(graph) if graph.subgraph(group).number_of_edges() == 1]
     gone = {body for pair in pairs for body in pair if not any(kinds[b] in TYPED for b in pair)}
-    if not gone or len(gone) == len(graph):
-        return solution
+    if len(gone) == len(graph):
+        gone = set()
     joints = {name for name, pair in ends.items() if gone & {*pair}}
+    most: dict[int, int] = {}
+    for (cluster, _), weight in (unary or {}).items():
+        most[cluster] = max(most.get(cluster, 0), weight)
+    for cluster, body in solution.body_of.items() if unary is not None and len(graph) else ():
+        said = unary is not None and 0 < most.get(cluster, 0) <= unary.get((cluster, body), 0)
+        gone |= {body} if not (said or body in graph or kinds[body] in TYPED) else set()
+    if not gone:
+        return solution
     lost = JOINT_WEIGHT * len(joints)
     missing = MISSING_WEIGHT * sum(not template.role(b).optional for b in gone)
     return replace(

@@ -28,7 +28,8 @@ def linkages_of(template: Template) -> tuple[dict[str, int], frozenset[int], fro
     linkages turn frames on each other; and which of the others work tools: not those that steer wheels, which turn
     about the upright, too."""
     kinds = {r.name: r.kind for r in template.roles}
-    moving = [j for j in template.joints if j.type in ("revolute", "prismatic") and None not in template.bodies_of(j)]
+    pairs = {j.name: template.bodies_of(j) for j in template.joints if j.type in ("revolute", "prismatic")}
+    moving = [template.joint(n) for n, pair in pairs.items() if None not in pair and len(set(pair)) == 2]
     graph = nx.Graph([template.bodies_of(j) for j in moving])
     blocks = [frozenset(frozenset(edge) for edge in edges) for edges in nx.biconnected_component_edges(graph)]
     blocks.sort(key=lambda edges: sorted(sorted(str(b) for b in e) for e in edges))
@@ -46,6 +47,12 @@ def linkages_of(template: Template) -> tuple[dict[str, int], frozenset[int], fro
     steered -= rolling
     steers = {k for k, edges in enumerate(blocks) if len(edges) > 1 and any(steered & edge for edge in edges)}
     return found, frozenset(upright), frozenset(found.values()) - upright - steers
+
+
+def steering_joints(template: Template) -> frozenset[str]:
+    """The hinges of the closed linkages that steer wheels."""
+    linkage_of, frames, tools = linkages_of(template)
+    return frozenset(joint for joint, number in linkage_of.items() if number not in frames | tools)
 
 
 def twin_linkages(template: Template, linkage_of: Mapping[str, int]) -> set[tuple[int, int]]:

@@ -45,6 +45,8 @@ _SCRIPTS = re.compile(r"[\u0400-\u052f\u3040-\u30ff\u3400-\u9fff\uac00-\ud7a3]")
 """Letters of scripts whose words are looked for in a name as it is written: Cyrillic, Japanese, Chinese, Korean."""
 _SPACED = re.compile(r"[\u0400-\u052f]")
 """Of these, those that have spaces: their words are looked for where words begin (машина is no шина, a tyre)."""
+_SIZE = re.compile(r"(?<=\d)[A-Za-z](?=\d)")
+"""A letter between digits is of a size (a tyre's 29.5R25, a bolt's M24x90), and no side."""
 _ELIDED = re.compile(r"\b[dl]['\u2019](?=\w)", re.IGNORECASE)
 _HIGH = re.compile(r"[\x80-\xff\u0152-\u2122]{2,}")
 _COUNT = re.compile(r"[\s_#.-]*\d*$")
@@ -128,6 +130,7 @@ def tokens(text: str) -> list[str]:
 def _tokens(text: str) -> tuple[str, ...]:
     text = _ELIDED.sub("", text.replace("ß", "ss"))
     plain = "".join(c for c in unicodedata.normalize("NFKD", text) if not unicodedata.combining(c))
+    plain = _SIZE.sub(" ", plain)
     return tuple(t for t in (t.casefold() for t in _SPLIT.findall(plain)) if not t.isdigit() and t not in _SMALL)
 
 

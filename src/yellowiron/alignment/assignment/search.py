@@ -185,7 +185,7 @@ class Search:
             again = solve(structure, drawn, unary=unary, barred=barred, effort=self._effort)
             if again is not None and again.score > solution.score:
                 resolved, solution = drawn, again
-        solution = without_islands(solution, resolved)
+        solution = without_islands(solution, resolved, unary)
         sided = one_sided(observation, structure, solution, self.template, resolved)
         answer = Answer(contact, structure, chosen, resolved, solution, unary, sided, barred)
         self._tried.append((chosen, answer.score))

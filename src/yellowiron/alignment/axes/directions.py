@@ -8,6 +8,7 @@ from dataclasses import dataclass
 
 import numpy as np
 
+from yellowiron.alignment.assignment.directions import steering_joints
 from yellowiron.alignment.axes.bodies import PIVOT, Body
 from yellowiron.alignment.axes.values import Frame, Line
 from yellowiron.alignment.fusion.stance import stance_of
@@ -60,7 +61,9 @@ def linkages_of(template: Template, bodies: Mapping[str, Body]) -> list[tuple[tu
 
 
 def is_upright(linkage: Sequence[JointTemplate], template: Template) -> bool:
-    """Whether a linkage steers or slews: one of its hinges joins two frames."""
+    """Whether a linkage steers or slews: one of its hinges joins two frames, or it moves wheels."""
+    if steering_joints(template) & {j.name for j in linkage}:
+        return True
     frames = {r.name for r in template.roles if r.kind == "frame" and r.rigid}
     return any(j.type == "revolute" and set(template.bodies_of(j)) <= frames for j in linkage)
 

@@ -111,9 +111,9 @@ def field_of(
     for p, mine in enumerate(votes):
         for body, features in mine.items():
             unary[p, at[body]] = weighed(features, weights)
-    linkage_of, frames, _ = linkages_of(template)
+    linkage_of, _, tools = linkages_of(template)
     joints = [
-        (_kind(j, linkage_of, frames), at[str(a)], at[str(b)])
+        (_kind(j, linkage_of, tools), at[str(a)], at[str(b)])
         for j in template.joints
         for a, b in [template.bodies_of(j)]
         if j.type in ("revolute", "spherical", "prismatic") and a in at and b in at and a != b
@@ -191,13 +191,13 @@ def _sides(bodies: Sequence[str], template: Template) -> tuple[Ints, ...]:
     return tuple(found)
 
 
-def _kind(joint: JointTemplate, linkage_of: Mapping[str, int], frames: Collection[int]) -> int:
+def _kind(joint: JointTemplate, linkage_of: Mapping[str, int], tools: Collection[int]) -> int:
     """Which of `KINDS` a joint is."""
     if joint.type == "prismatic":
         return KINDS.index("slide")
     if joint.name not in linkage_of:
         return KINDS.index("hinge")
-    return KINDS.index("turned" if linkage_of[joint.name] in frames else "level")
+    return KINDS.index("level" if linkage_of[joint.name] in tools else "turned")
 
 
 def weighed(features: Features, weights: Features) -> float:

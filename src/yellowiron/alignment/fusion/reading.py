@@ -13,6 +13,7 @@ from yellowiron.alignment.assignment.directions import ALIKE, NOT_ACROSS, linkag
 from yellowiron.alignment.assignment.search import machine_of
 from yellowiron.alignment.assignment.sides import twin_role
 from yellowiron.alignment.facing import UNTOLD, Facing
+from yellowiron.alignment.features.solids import Solid
 from yellowiron.alignment.fusion.annealing import CHAINS, HOT, SWEEPS, against, labelled, leads
 from yellowiron.alignment.fusion.bonds import Bond, out_of_line
 from yellowiron.alignment.fusion.evidence import Evidence, evidence_of, ways_of
@@ -50,6 +51,8 @@ GROUND = 30.0
 did not find the machine tell nothing for certain."""
 CONTRARY = 25.0
 """Where all but the names speak so much more for another body, names are not enough to go unasked."""
+BESIDE = 0.05
+"""What its name alone gives to a body is no farther from it, in machine sizes."""
 AS_GOOD = 12.0
 """A variant by which a machine is judged less well by no more than this could as well be the one."""
 CLEAR_LEAD = 12.0
@@ -373,10 +376,17 @@ def _by_name_alone(
             continue
         best, *others = sorted(said, key=lambda b: (-said[b], b))
         lead = 100.0 * (said[best] - (said[others[0]] if others else 0.0))
-        if said[best] >= CLEARLY and lead >= CLEAR_LEAD:
+        if said[best] >= CLEARLY and lead >= CLEAR_LEAD and _is_beside(solid, best, judged, observation):
             words = f"{best} by its name alone, which says so with {said[best]:.2f}"
             found[solid.index] = Judged(best, lead, others[0] if others else None, words, True)
     return found
+
+
+def _is_beside(solid: Solid, body: str, judged: Mapping[int, Judged], observation: Observation) -> bool:
+    """Whether a solid is near something that was judged to be of a body: a lever in the cab is no link of a bucket."""
+    own = [observation.solids[i] for i in sorted(judged) if judged[i].body == body]
+    gaps = (float(np.linalg.norm(np.maximum(0, np.maximum(s.low - solid.high, solid.low - s.high)))) for s in own)
+    return min(gaps, default=np.inf) <= BESIDE * observation.size
 
 
 def _answer(
@@ -397,15 +407,15 @@ def _answer(
 def _solution(structure: Structure, body_of: Mapping[int, str], best: _Best, stance: Stance) -> Solution:
     """The joints that exact axes are there for, in a direction that they may have: of several between two bodies the
     one that most pins run through."""
-    linkage_of, frames, _ = linkages_of(best.template)
+    linkage_of, _, tools = linkages_of(best.template)
     slewing = slewing_joints(best.template)
 
     def may_be(joint: JointTemplate, hinge: Hinge) -> bool:
         _, across, upright = np.abs(stance.rotation @ structure.axes[hinge.axis].direction)
         if joint.name in slewing:
             return bool(upright > ALIKE)
-        turned = linkage_of.get(joint.name) in frames
-        return joint.name not in linkage_of or bool(across < NOT_ACROSS if turned else across > ALIKE)
+        level = linkage_of.get(joint.name) in tools
+        return joint.name not in linkage_of or bool(across > ALIKE if level else across < NOT_ACROSS)
 
     hinge_of: dict[str, int] = {}
     slide_of: dict[str, int] = {}

@@ -6,9 +6,12 @@ from collections.abc import Collection, Mapping, Sequence
 from dataclasses import dataclass
 
 from yellowiron.alignment.features.distance import Touch
-from yellowiron.alignment.features.solids import Solid
+from yellowiron.alignment.features.solids import Solid, size_of, solids_of
+from yellowiron.alignment.features.wheels import spare_wheels
 from yellowiron.alignment.labelling.place import DOUBTFUL, Place
+from yellowiron.alignment.tolerances import CONTACT
 from yellowiron.model.alignment import Vector
+from yellowiron.model.assembly import Assembly
 from yellowiron.model.geometry import Floats
 from yellowiron.model.rows import expand, member
 from yellowiron.model.template import Role, Template
@@ -127,3 +130,16 @@ def _row(template: Template, carrier: str, side: str) -> Role | None:
     """The type's row of wheels on a body on one side."""
     rows = (r for r in template.roles if r.many and r.rigid and r.kind == "wheel" and r.side == side)
     return next((r for r in rows if r.parent is not None and template.body_of(r.parent) == carrier), None)
+
+
+def spare_of(assembly: Assembly, template: Template) -> tuple[FurtherWheel, ...]:
+    """The wheels of axles that the type does not have."""
+    solids = solids_of(assembly)
+    found = spare_wheels(solids, template, CONTACT[-1] * size_of(solids)) if solids else []
+
+    def ids(members: Collection[int]) -> frozenset[str]:
+        return frozenset(solids[i].part.id for i in members)
+
+    return tuple(
+        FurtherWheel(ids(w.members), ids(w.tyres), w.center, w.direction, solids[w.beside].part.id) for w in found
+    )

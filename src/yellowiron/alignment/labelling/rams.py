@@ -49,12 +49,12 @@ def with_rams(
 def _between(
     cylinder: CylinderTemplate, observation: Observation, places: Mapping[int, Place], answer: Answer
 ) -> Iterator[DrawnCylinder]:
-    """The fixed rams that are drawn between the two bodies of a slide, barrel and rod on the right ones."""
+    """The cylinders that are drawn between the two bodies of a slide, barrel and rod on the right ones."""
     barrel, rod = (answer.template.body_of(half) for half in cylinder.rams[0])
 
     def on(members: frozenset[int], body: str | None) -> bool:
         return sum(i in places and places[i].body == body for i in members) > 0.5 * len(members)
 
     for one in observation.cylinders:
-        if one.fixed and on(one.barrel, barrel) and on(one.rod, rod):
+        if on(one.barrel, barrel) and on(one.rod, rod):
             yield one

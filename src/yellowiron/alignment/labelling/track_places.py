@@ -12,9 +12,10 @@ from dataclasses import dataclass, replace
 import numpy as np
 
 from yellowiron.alignment.features.distance import Touch
-from yellowiron.alignment.features.solids import Solid
-from yellowiron.alignment.features.tracks import Track
+from yellowiron.alignment.features.solids import Solid, solids_of
+from yellowiron.alignment.features.tracks import Track, tracks_of
 from yellowiron.alignment.labelling.place import DOUBTFUL, Place
+from yellowiron.model.assembly import Assembly
 from yellowiron.model.geometry import Floats
 from yellowiron.model.rows import member, split_index
 from yellowiron.model.template import Role, Template
@@ -154,3 +155,21 @@ def _parts(track: Track, frame: Floats) -> list[tuple[str, str, list[tuple[int, 
             ("carrier", "one under the upper run, front to rear,", [w.members for p, w in inner if p[2] >= middle[2]]),
         ]
     return found
+
+
+def upright(tracks: list[Track]) -> Floats | None:
+    """The direction across the tracks and their length."""
+    return np.asarray(np.cross(tracks[0].axis, tracks[0].along), dtype=np.float64) if tracks else None
+
+
+def tracks_in(assembly: Assembly, template: Template) -> tuple[dict[int, str], list[Track]]:
+    """The parts of tracks, solid → id, and the tracks, where the template has any."""
+    return _tracks(assembly) if any(r.kind == "shoe" for r in template.roles) else ({}, [])
+
+
+@remembered
+def _tracks(assembly: Assembly) -> tuple[dict[int, str], list[Track]]:
+    solids = solids_of(assembly)
+    tracks = tracks_of(solids)
+    inside = {i for t in tracks for group in (*t.shoes, *(w.members for w in t.wheels)) for i in group}
+    return {i: solids[i].part.id for i in sorted(inside)}, tracks

@@ -25,6 +25,9 @@ from yellowiron.alignment.tolerances import PARALLEL, ROUND_ARC
 
 ROUNDS = 4
 """How often a careful reading starts again without the false welds it found."""
+OWN = 0.05
+"""A cluster of which a cylinder's half is less than this share of the surface is what carries it: a frame that a barrel
+was found to be fast on is still a frame, and a cylinder half is a ram's."""
 LONG = 6.0
 """A part that reaches this many pin radii from the pin's axis is no ring, boss or keeper."""
 
@@ -71,7 +74,21 @@ class Structure:
 
 def structure_of(evidence: ContactEvidence, *, leaves: bool, weak: bool, careful: bool) -> Structure:
     """Clusters and hinges. `leaves`: the template has bodies that hang on a single hinge, so that a spacer on one pin
-    may be one. A careful reading looks for false welds and starts again without them."""
+    may be one. A careful reading looks for false welds and starts again without them; so does one of a type that has
+    cylinders without pins, where one that was to hang on pins turns out to be fast on something far larger."""
+    groups, refused = _grouped(evidence, weak=weak, careful=careful)
+    while evidence.rams and (carried := _carried(groups, evidence)):
+        fixed = [replace(c, fixed=c.fixed or k in carried) for k, c in enumerate(evidence.cylinders)]
+        evidence = replace(evidence, cylinders=tuple(fixed))
+        groups, refused = _grouped(evidence, weak=weak, careful=careful)
+    _absorb_leaves(groups, evidence, leaves=leaves)
+    if weak:
+        _absorb_bosses(groups, evidence)
+    return _collected(groups, evidence, refused)
+
+
+def _grouped(evidence: ContactEvidence, *, weak: bool, careful: bool) -> tuple[Groups, Pairs]:
+    """What is welded, and the pairs that touch but were not."""
     flat = list(dict.fromkeys((f.a, f.b) for f in evidence.welds))
     apart: set[tuple[int, int]] = set()
     for _ in range(ROUNDS if careful else 1):
@@ -88,10 +105,7 @@ def structure_of(evidence: ContactEvidence, *, leaves: bool, weak: bool, careful
         if not found:
             break
         apart |= found
-    _absorb_leaves(groups, evidence, leaves=leaves)
-    if weak:
-        _absorb_bosses(groups, evidence)
-    return _collected(groups, evidence, [*refused, *sorted(apart)])
+    return groups, [*refused, *sorted(apart)]
 
 
 def _tagged(evidence: ContactEvidence) -> Groups:
@@ -271,12 +285,9 @@ def labelled_structure(
 
 def _collected(groups: Groups, evidence: ContactEvidence, refused: Pairs) -> Structure:
     """The structure that groups make: every group but the fasteners' is a cluster."""
-    gathered: dict[int, set[int]] = {}
-    for s in evidence.solids:
-        if s.index not in evidence.fasteners:
-            gathered.setdefault(groups.find(s.index), set()).add(s.index)
+    gathered = _gathered(groups, evidence)
     roots = sorted(gathered)
-    clusters = tuple(Cluster(frozenset(gathered[r]), *groups.label(r)) for r in roots)
+    clusters = tuple(_cluster(frozenset(gathered[r]), groups.label(r), evidence) for r in roots)
     cluster_of = {i: k for k, r in enumerate(roots) for i in gathered[r]}
     pins = _pinned_pairs(evidence, cluster_of)
     for number, wheel in enumerate(evidence.wheels, len(evidence.axes)):
@@ -302,6 +313,37 @@ def _collected(groups: Groups, evidence: ContactEvidence, refused: Pairs) -> Str
         races=races,
         drums=frozenset(k for k, wheel in enumerate(evidence.wheels) if wheel.drum),
     )
+
+
+def _gathered(groups: Groups, evidence: ContactEvidence) -> dict[int, set[int]]:
+    """The members of every group, without the fasteners."""
+    gathered: dict[int, set[int]] = {}
+    for s in evidence.solids:
+        if s.index not in evidence.fasteners:
+            gathered.setdefault(groups.find(s.index), set()).add(s.index)
+    return gathered
+
+
+def _cluster(members: frozenset[int], label: tuple[str, int], evidence: ContactEvidence) -> Cluster:
+    """A cluster of the kind that its label says, unless that is a cylinder's half and most of it is something else."""
+    return Cluster(members) if _is_carried(members, label, evidence) else Cluster(members, *label)
+
+
+def _is_carried(members: frozenset[int], label: tuple[str, int], evidence: ContactEvidence) -> bool:
+    """Whether a cluster is labelled as a cylinder's half and is mostly what that half is fast on."""
+    kind, number = label
+    if kind not in ("barrel", "rod"):
+        return False
+    half = evidence.cylinders[number].barrel if kind == "barrel" else evidence.cylinders[number].rod
+    own, every = (sum(evidence.solids[i].surface for i in sorted(some)) for some in (half, members))
+    return own < OWN * every
+
+
+def _carried(groups: Groups, evidence: ContactEvidence) -> frozenset[int]:
+    """The numbers of the cylinders of which a half is fast on something far larger."""
+    gathered = _gathered(groups, evidence)
+    whole = [(frozenset(members), groups.label(root)) for root, members in sorted(gathered.items())]
+    return frozenset(label[1] for members, label in whole if _is_carried(members, label, evidence))
 
 
 def _pinned_pairs(evidence: ContactEvidence, cluster_of: dict[int, int]) -> dict[tuple[int, int, int], set[int]]:

@@ -40,7 +40,8 @@ class ContactEvidence:
     - `area`: m² of flat contact of a pair;
     - `nests`: sections that slide in each other;
     - `near`: pairs whose boxes touch; `touching(a, b)` asks the meshes;
-    - `halves_within`: metres across a hinge that the two loose halves of one body are apart at most.
+    - `halves_within`: metres across a hinge that the two loose halves of one body are apart at most;
+    - `rams`: the type has hydraulic cylinders without pins.
     """
 
     solids: tuple[Solid, ...]
@@ -65,6 +66,7 @@ class ContactEvidence:
     area: dict[tuple[int, int], float]
     nests: tuple[Nest, ...] = ()
     halves_within: float = math.inf
+    rams: bool = False
 
 
 @dataclass(frozen=True, eq=False)
@@ -72,7 +74,7 @@ class Contacts:
     """What evidence is made of: `fits` of shafts in bores, `bare` empty bores side by side, `flats`, hydraulic
     cylinders, wheels, `near` pairs of solids and what asks whether their meshes touch; `tolerance` in metres. `nests`:
     sections that slide in each other; `stays`: bars that are no pins. Without `holes` what is turned about a pin's axis
-    may turn though it has no bore."""
+    may turn though it has no bore; `rams`: the type has hydraulic cylinders without pins."""
 
     solids: tuple[Solid, ...]
     fits: list[Fit]
@@ -86,6 +88,7 @@ class Contacts:
     nests: tuple[Nest, ...] = ()
     stays: frozenset[int] = frozenset()
     holes: bool = True
+    rams: bool = False
 
 
 @dataclass(frozen=True, eq=False)
@@ -152,6 +155,7 @@ def evidence_of(contacts: Contacts, *, slewing: bool = False) -> ContactEvidence
         turning=tuple(turning),
         area=area,
         nests=contacts.nests,
+        rams=contacts.rams,
     )
 
 

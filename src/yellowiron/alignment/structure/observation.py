@@ -87,7 +87,7 @@ def observe(assembly: Assembly, template: Template, contact: float) -> Observati
     wheels = rolling_of(solids, template, taken, tolerance)
 
     contacts = Contacts(
-        solids, fits, bare, flats, cylinders, wheels, near, touch.touching, tolerance, nests, stays, holes
+        solids, fits, bare, flats, cylinders, wheels, near, touch.touching, tolerance, nests, stays, holes, fixed
     )  # fmt: skip
     evidence = [evidence_of(contacts)]
     if slewing_joints(template):
