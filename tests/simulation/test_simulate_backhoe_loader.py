@@ -29,8 +29,7 @@ def file(made_once: MadeOnce) -> Path:
 def test_full_strokes(file: Path, engine: str, actuators: list[str] | None) -> None:
     in_engines.need(engine)
     import_engine(engine)  # before a stage opens: its schemas
-    # At PhysX's 120 Hz the boom's drive pulls at full force from one target to the next, and pins err by 0.4 mm.
-    result = simulate(file, engine=engine, actuators=actuators, dt=1.0 / 240.0 if engine == "physx" else None)
+    result = simulate(file, engine=engine, actuators=actuators)
     assert result.base == "fixed" and result.completed and result.branches_kept
     assert not result.findings, result.findings
     assert result.pin_error < {"mujoco": 5e-5, "newton": 5e-5, "physx": 2.5e-4}[engine]

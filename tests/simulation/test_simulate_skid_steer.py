@@ -26,15 +26,13 @@ def file(made_once: MadeOnce) -> Path:
 
 @pytest.mark.parametrize(
     ("engine", "payload", "actuators"),
-    [("mujoco", 1300.0, None), ("newton", 0.0, ["bucket"]), ("physx", 0.0, None)],
+    [("mujoco", 1300.0, None), ("newton", 0.0, ["bucket"]), ("physx", 1300.0, None)],
 )
 def test_full_strokes(file: Path, engine: str, payload: float, actuators: list[str] | None) -> None:
     in_engines.need(engine)
     import_engine(engine)  # before a stage opens: its schemas
     assert rated_payload(read_mechanism(file)).mass == pytest.approx(1300.0)
-    # At PhysX's 120 Hz drives pull at full force from one target to the next, and pins err by 0.29 mm.
-    step = 1.0 / 240.0 if engine == "physx" else None
-    result = simulate(file, engine=engine, payload_kg=payload, actuators=actuators, dt=step)
+    result = simulate(file, engine=engine, payload_kg=payload, actuators=actuators)
     assert result.completed and result.branches_kept
     assert not result.findings, result.findings
     assert result.pin_error < {"mujoco": 5e-5, "newton": 5e-5, "physx": 2.5e-4}[engine]

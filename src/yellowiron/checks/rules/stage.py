@@ -202,10 +202,10 @@ def physx_gap(hz: float, iterations: float) -> tuple[float, float]:
     """How far (mm) pins of a loader and of excavators came apart in slow full strokes in PhysX, as
     `benchmarks/bench_defaults.py` measures it, carried on to other rates and counts by the slopes found there."""
     fewer, longer = (4.0 / iterations) ** 1.5, (60.0 / hz) ** 2
-    return 7.0 * fewer * longer, 51.0 * fewer * longer
+    return 4.3 * fewer * longer, 9.1 * fewer * longer
 
 
 def newton_gap(hz: float) -> tuple[float, float]:
     """The same in Newton with its own integrator."""
     longer = (60.0 / hz) ** 2
-    return 17.0 * longer, 80.0 * longer
+    return 6.3 * longer, 21.0 * longer
