@@ -102,7 +102,8 @@ def _mobility(mechanism: Mechanism, work: _Work) -> Mobility:
     grubler -= sum(joint.follows is not None for joint in mechanism.joints) + len(work.chain.spins)
     held = [name for name in work.chain.idle if work.joints[name].held]
     expected = sum(freedom[work.joints[name].type] for name in independent_joints(mechanism))
-    mobility = Mobility(work.chain.degrees_of_freedom - len(held), expected, grubler)
+    kept = sum(freedom[work.joints[name].type] for name in held)
+    mobility = Mobility(work.chain.degrees_of_freedom - kept, expected, grubler)
     if mobility.computed != mobility.expected:
         more = mobility.computed > mobility.expected
         work.find(

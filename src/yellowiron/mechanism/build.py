@@ -307,8 +307,7 @@ def _spring(entry: JointTemplate) -> Spring | None:
 
 
 def _with_idle_held(joints: Sequence[Joint], tree: Tree, findings: list[Finding]) -> tuple[Joint, ...]:
-    """The joints, those kept as drawn that nothing moves or holds: a barrel without its rod, a lone link. A ball, which
-    has no limits to keep it by, is welded."""
+    """The joints, those kept as drawn that nothing moves or holds: a barrel without its rod, a lone link."""
     closed = {name for loop in tree.loops for name in loop.joints}
     held = []
     for joint in joints:
@@ -317,11 +316,7 @@ def _with_idle_held(joints: Sequence[Joint], tree: Tree, findings: list[Finding]
             words = f"Nothing moves or holds '{joint.body1}' on it: it stands as drawn."
             hint = "Give what is missing of its linkage in CAD, or make the joint free in a joints document (--data)."
             findings.append(Finding("MEC019", "warning", joint.name, words, hint))
-            source = {**joint.source, "limits": "held as drawn"}
-            if joint.type == "spherical":
-                joint = replace(joint, type="fixed", lower=None, upper=None, source=source)
-            else:
-                joint = replace(joint, lower=-HELD, upper=HELD, source=source)
+            joint = replace(joint, lower=-HELD, upper=HELD, source={**joint.source, "limits": "held as drawn"})
         held.append(joint)
     return tuple(held)
 
