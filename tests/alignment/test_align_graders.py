@@ -1,5 +1,5 @@
-"""Unseen graders without names: every part in its body, the frame straight though wheels lean and are steered; the cab
-before and behind the articulation, cylinders in gimbals and on studs, with a ripper and without."""
+"""Unseen graders without names: every part in its body; the cab before and behind the articulation, cylinders in
+gimbals or on studs, with a ripper or none."""
 
 from __future__ import annotations
 
@@ -27,11 +27,3 @@ def test_every_part_is_in_its_body(seed: int, behind: bool, gimbals: bool, rippe
 @pytest.mark.parametrize("seed", [501, 502])
 def test_so_it_is_from_triangles(seed: int) -> None:
     found_whole(grader(seed), "grader", seed, triangles=True)
-
-
-def test_wheels_that_are_drawn_steered_do_not_turn_the_frame() -> None:
-    """All wheels before the articulation are steered: left is from one kingpin to the other, though they lean."""
-    machine = grader(4)
-    turned = {p.id: p.transform[:3, 2] for p in machine.parts if machine.truth[p.id][0] == "front_tyre_l"}
-    assert all(abs(way[0]) > 0.25 for way in turned.values())
-    found_whole(machine, "grader", 4, triangles=False)

@@ -48,7 +48,7 @@ def test_it_drives_and_turns_with_its_two_sides(file: Path, engine: str) -> None
     result = drive(file, engine=engine)
     in_engines.assert_straight(result)
     assert result.turning_radius is None and result.spin_geometry == pytest.approx(math.radians(28.6), rel=0.01)
-    assert result.spin == pytest.approx(result.spin_geometry, abs=math.radians(3.5))
+    assert result.spin == pytest.approx(result.spin_geometry, abs=math.radians(4.5))
     assert not list(driving_findings(result))
 
 

@@ -30,8 +30,6 @@ _ALIKE_WHEELS, _LEVELLED = 0.02, 4
 """Radii that differ by less are one size; where they differ, so many times the ground is laid under the wheels anew."""
 LEANING = 0.2
 """Least level part of the unit way from a boom's section to the one in it that tells which way the boom points."""
-UPRIGHT = 0.8
-"""Least upright part of the unit way of a kingpin, which may lean."""
 SNAP = 1e-6
 """A rotation this near to a signed permutation of the axes is that permutation."""
 
@@ -250,37 +248,18 @@ def _up_guess(pitch: Floats | None) -> Floats:
 
 
 def _left(scene: _Scene, swing: str | None, up: Floats) -> Floats | None:
-    """The axis of the wheels on the root's side of the swing: of those that are not steered, which may be drawn turned;
-    where all are, from one side's kingpins to the other's. Without wheels, the commonest joint axis across `up`."""
-    found = {
-        b: scene.wheels[scene.structure.clusters[scene.cluster_of[b]].number]
+    """The axis of the wheels on the root's side of the swing, else the commonest joint axis across `up`."""
+    found = [
+        scene.wheels[scene.structure.clusters[scene.cluster_of[b]].number]
         for b in sorted(_joined_to_root(scene.template, swing))
         if b in scene.cluster_of and scene.structure.clusters[scene.cluster_of[b]].kind == "wheel"
-    }
-    kingpins = {b: pin for b in found if (pin := _kingpin(scene, b, up)) is not None}
-    pairs = [(pin, kingpins.get(f"{b[:-2]}_r")) for b, pin in kingpins.items() if b.endswith("_l")]
-    across = [left.origin - right.origin for left, right in pairs if right is not None]
-    if across and len(kingpins) == len(found):
-        return np.asarray(np.sum(across, axis=0), dtype=np.float64)
+    ]
     if found:
-        axes = [w.direction for b, w in found.items() if b not in kingpins or len(kingpins) == len(found)]
-        total = np.sum([a if a @ axes[0] > 0 else -a for a in axes], axis=0)
+        first = found[0].direction
+        total = np.sum([w.direction if w.direction @ first > 0 else -w.direction for w in found], axis=0)
         return np.asarray(total, dtype=np.float64)
-    return _common_direction([ln for ln in scene.axes.values() if abs(float(ln.direction @ up)) < 0.3])
-
-
-def _kingpin(scene: _Scene, wheel: str, up: Floats) -> SharedAxis | None:
-    """The upright axis about which what carries a wheel is steered: of its upright ones that to the body nearest to the
-    root, the others are tie rods' and cylinders'."""
-    template = scene.template
-    beside = {b for j in template.joints for b in template.bodies_of(j) if wheel in template.bodies_of(j)}
-    carriers = {b for b in beside if b not in (wheel, None) and template.role(str(b)).side}
-    upright = []
-    for name, axis in sorted(scene.axes.items()):
-        ends = set(template.bodies_of(template.joint(name)))
-        if ends & carriers and wheel not in ends and abs(float(axis.direction @ up)) > UPRIGHT:
-            upright.append((min(template.depth(str(b)) for b in ends - carriers), name, axis))
-    return min(upright, key=lambda found: found[:2])[2] if upright else None
+    across = [ln for ln in scene.axes.values() if abs(float(ln.direction @ up)) < 0.3]
+    return _common_direction(across)
 
 
 def _joined_to_root(template: Template, swing: str | None) -> set[str]:
