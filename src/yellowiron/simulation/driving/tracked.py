@@ -10,7 +10,7 @@ import numpy as np
 
 from yellowiron.kinematics import ClosedChain
 from yellowiron.model.geometry import Floats
-from yellowiron.model.mechanism import GRAVITY, Mechanism
+from yellowiron.model.mechanism import GRAVITY, Mechanism, scrubbing
 from yellowiron.simulation.commands import motions
 from yellowiron.simulation.driving.sliding import center_of_mass, least_sliding, standing
 from yellowiron.simulation.driving.wheel import GroundWheel
@@ -44,7 +44,7 @@ def spin(
     far as they did roll.
     """
     left, right = both
-    every, tyres = (*left, *right), on_tyres(both)
+    every, tyres = (*left, *right), bool(scrubbing(mechanism))
     half = 0.5 * float(np.mean([w.middle[1] for w in left]) - np.mean([w.middle[1] for w in right]))
     limit = (_EASY if tyres else 1.0) * SPARE * _push(mechanism, every) * half / _inertia(mechanism)
     root = [body.name for body in mechanism.bodies].index(mechanism.root)
@@ -73,12 +73,6 @@ def _angles(engine: Engine, found: Sequence[GroundWheel], root: int) -> Floats:
         turned = rotations[root].T @ rotations[wheel.body] @ spoke
         angles.append(math.atan2(float(np.cross(spoke, turned) @ wheel.axis), float(spoke @ turned)))
     return np.array(angles)
-
-
-def on_tyres(both: Sequence[Sequence[GroundWheel]]) -> bool:
-    """Whether a machine stands on two driven wheels a side, as a skid steer does, and not on tracks, which have one
-    sprocket or a row of wheels."""
-    return all(len(side) == 2 for side in both)
 
 
 def swing(

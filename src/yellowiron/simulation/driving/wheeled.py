@@ -15,7 +15,7 @@ import numpy as np
 
 from yellowiron.kinematics import ClosedChain
 from yellowiron.model.geometry import Floats
-from yellowiron.model.mechanism import Body, Joint, Mechanism
+from yellowiron.model.mechanism import Body, Joint, Mechanism, scrubbing
 from yellowiron.simulation.commands import SHARE, Motion, motions, travel
 from yellowiron.simulation.driving import tracked
 from yellowiron.simulation.driving.raised import raised
@@ -158,7 +158,7 @@ class _Trip:
         """Settling, forward, back, and the turn."""
         engine = self._load()
         distance, speed = DISTANCE, SPEED
-        if self._sides and not tracked.on_tyres(self._sides):
+        if self._sides and not scrubbing(self.mechanism):
             distance, speed = tracked.DISTANCE, top_speed(self.wheels, SPEED)
         try:
             self._raise(engine)
