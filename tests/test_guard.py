@@ -2,7 +2,9 @@
 
 from __future__ import annotations
 
+import contextlib
 import os
+import pickle
 import resource
 import subprocess
 import sys
@@ -174,3 +176,35 @@ def test_macos_has_all_but_a_limit_of_memory(monkeypatch: pytest.MonkeyPatch) ->
     limits.limit_memory(1)
     assert resource.getrlimit(resource.RLIMIT_AS) == before
     assert run_guarded("math:sqrt", 4.0, where="x") == 2.0
+
+
+STARTS_AND_IS_KILLED = """
+import os, signal, subprocess, sys
+from yellowiron.support import guard
+subprocess.Popen(guard.child_command("yellowiron.support.guard:run_child", sys.argv[1]), start_new_session=True)
+os.kill(os.getpid(), signal.SIGKILL)
+"""
+
+
+@pytest.mark.skipif(sys.platform != "linux", reason="elsewhere no parent's end is told")
+def test_a_child_whose_parent_ended_before_it_began_does_nothing(tmp_path: Path, root: Path) -> None:
+    done = tmp_path / "done"
+    call = tmp_path / "call"
+    call.write_bytes(pickle.dumps(("os:mkdir", (str(done),), None, str(tmp_path / "answer"), -1)))
+    environment = {**os.environ, "PYTHONPATH": str(root / "src")}
+    subprocess.run([sys.executable, "-c", STARTS_AND_IS_KILLED, str(call)], env=environment, check=False)
+    for _ in range(100):
+        if str(call) not in "".join(commands()):
+            break
+        time.sleep(0.05)
+    assert not done.exists()
+    assert not (tmp_path / "answer").exists()
+
+
+def commands() -> list[str]:
+    """The command lines of all processes."""
+    found = []
+    for file in Path("/proc").glob("[0-9]*/cmdline"):
+        with contextlib.suppress(OSError):
+            found.append(file.read_text(encoding="utf-8", errors="replace"))
+    return found

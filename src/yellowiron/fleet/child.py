@@ -28,7 +28,6 @@ _FULL = (errno.ENOSPC, errno.EDQUOT, errno.EIO, errno.EROFS, errno.EFBIG)
 
 def run(call: str) -> NoReturn:
     """Does what the file `call` asks for and ends the process: an item's work, whose outcome is a file beside it."""
-    limits.die_with_parent()
     limits.leave_no_core()
     asked = json.loads(Path(call).read_text(encoding="utf-8"))
     outcome = build_item(item_from(asked["item"]), Path(asked["folder"]), Path(asked["inputs"]))

@@ -185,15 +185,15 @@ def _obituary(who: str, returncode: int, noise: bytes) -> str:
 
 def child_command(target: str, call: str) -> list[str]:
     """The command of a child process that calls `module:function` with one text. It may import, behind what its
-    interpreter's installation has, from the folder of this package and from those of packages that bring plugins."""
+    interpreter's installation has, from the folder of this package and from those of packages that bring plugins. It
+    ends with this process."""
     folders = [str(_PACKAGE.parent), *plugins.folders()]
-    return [*isolated.interpreter(), isolated.__file__, str(_PACKAGE), target, call, *folders]
+    return [*isolated.interpreter(), isolated.__file__, str(_PACKAGE), str(os.getpid()), target, call, *folders]
 
 
 def run_child(call: str) -> NoReturn:
     """Does what the file `call` asks for, writes the answer beside it and ends the process: a guarded child's work."""
     global _life
-    limits.die_with_parent()
     target, args, memory_mb, answer, _life = pickle.loads(Path(call).read_bytes())
     if memory_mb is not None:
         limits.limit_memory(memory_mb)

@@ -41,9 +41,11 @@ def _load(package: str) -> None:
 
 
 if __name__ == "__main__":
-    package, target, call, *folders = sys.argv[1:]
+    package, parent, target, call, *folders = sys.argv[1:]
     sys.path += [folder for folder in folders if folder not in sys.path]
     _load(package)
     from pkgutil import resolve_name
+
+    resolve_name("yellowiron.support.limits:die_with_parent")(int(parent))
 
     resolve_name(target)(call)

@@ -92,10 +92,13 @@ def leave_no_core() -> None:
         resource.setrlimit(resource.RLIMIT_CORE, (0, 0))
 
 
-def die_with_parent() -> None:
-    """Asks the kernel to end this process when its parent ends, however that ends (Linux; elsewhere it may linger)."""
+def die_with_parent(parent: int) -> None:
+    """Asks the kernel to end this process when its parent ends, however that ends (Linux; elsewhere it may linger).
+    Where it has ended before it could be asked, and this process is another's now, it ends here."""
     with contextlib.suppress(AttributeError, OSError):
         ctypes.CDLL(None).prctl(_PR_SET_PDEATHSIG, signal.SIGKILL)
+    if os.getppid() != parent:
+        os._exit(os.EX_UNAVAILABLE)
 
 
 @contextlib.contextmanager
