@@ -244,6 +244,9 @@ def creep(scene: Path, *, brakes: bool) -> float:
             if name.endswith(".brake"):
                 dof = int(model.joint(name.removesuffix(".brake")).dofadr[0])
                 model.dof_frictionloss[dof] = float(model.numeric(number).data[0])
+        for number in range(model.ngeom):
+            if model.geom(number).name.endswith(".pad"):
+                model.geom_contype[number] = 1
     places = []
     for seconds in (2.0, 5.0):
         mujoco.mj_step(model, data, int(seconds / model.opt.timestep))

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import math
+from dataclasses import replace
 from pathlib import Path
 
 import mujoco
@@ -10,14 +11,22 @@ import numpy as np
 import pytest
 from in_engines import need
 from plain_engines import play, world_with
-from pxr import Usd, UsdPhysics
+from pxr import Usd, UsdGeom, UsdPhysics
 
 from kit.machines import small_machine
+from kit.machines.crawler import crawler
 from kit.machines.simple_machines import write
+from kit.machines.tracked_template import write_tracked_template
+from yellowiron import usd
 from yellowiron.exporters import Geometry, export_mjcf
 from yellowiron.kinematics import complete
 from yellowiron.kinematics.brakes import SLOPE
+from yellowiron.library import load_template
+from yellowiron.mechanism import build_mechanism
 from yellowiron.model.mechanism import Actuator, ActuatorJoint, Body, Drive, Joint, Mechanism
+from yellowiron.model.rows import expand
+from yellowiron.model.specification import Specifications
+from yellowiron.model.template import choose
 from yellowiron.simulation import rated_payload
 from yellowiron.usd import read_mechanism
 
@@ -97,6 +106,64 @@ def test_a_set_brake_is_a_stiff_spring_as_strong_as_it_where_friction_alone_cree
         held[brakes] = drive.GetStiffnessAttr().Get(), drive.GetMaxForceAttr().Get()
     assert held["released"] == pytest.approx((0.0, 1e6))
     assert held["set"] == pytest.approx((math.radians(brake.brake / 0.002), brake.brake), rel=1e-5)
+
+
+@pytest.fixture(scope="module")
+def crawling(tmp_path_factory: pytest.TempPathFactory) -> tuple[Mechanism, Path]:
+    """A machine on tracks, as heavy in front as one that reaches out: it stands on the ends of its tracks."""
+    folder = tmp_path_factory.mktemp("crawling")
+    template = load_template(write_tracked_template(folder / "template"))
+    drawn = crawler(24, 3, 1)
+    aligned = drawn.aligned(shoes=False)
+    chosen = expand(choose(template, {"tracks": "belt"}), aligned.counts)
+    built = build_mechanism(drawn.assembly(), chosen, aligned, Specifications(), name="crawler")
+    out = [
+        replace(b, center_of_mass=(1.5, 0.0, 1.5), mass=2.0 * b.mass) if b.name == "upperstructure" else b
+        for b in built.bodies
+    ]
+    built = complete(replace(built, bodies=tuple(out)))
+    usd.write_machine(built, drawn.assembly(), folder / "made", name="crawler")
+    return built, folder / "made" / "crawler.usda"
+
+
+@pytest.mark.parametrize("engine", [pytest.param("newton", marks=pytest.mark.slow), "physx"])
+def test_tracks_with_brakes_set_stay_on_the_slope(crawling: tuple[Mechanism, Path], engine: str) -> None:
+    need(engine)
+    moved = {}
+    for brakes in ("released", "set"):
+        stage = world_with(crawling[1], np.array([math.sin(SLOPE), 0.0, -math.cos(SLOPE)]))
+        machine = stage.GetPrimAtPath("/World/machine")
+        machine.GetVariantSet("Base").SetVariantSelection("floating")
+        machine.GetVariantSet("Brakes").SetVariantSelection(brakes)
+        ground = UsdGeom.Plane.Define(stage, "/World/ground")
+        ground.CreateAxisAttr("Z")
+        UsdPhysics.CollisionAPI.Apply(ground.GetPrim())
+        body = "/World/machine/undercarriage"
+        poses = [play(engine, stage, [body], seconds)[body] for seconds in (1.0, 2.0)]
+        moved[brakes] = float(np.linalg.norm(poses[1] - poses[0]))
+    # m in a second; Newton's own friction cone lets everything creep by a millimetre or two.
+    assert moved["released"] > 4e-3
+    assert moved["set"] < (2e-3 if engine == "newton" else 2e-5)
+
+
+def test_mjcf_has_pads_that_touch_once_they_are_told_to(crawling: tuple[Mechanism, Path], tmp_path: Path) -> None:
+    moved = {}
+    for brakes in (False, True):
+        export_mjcf(crawling[0], crawling[1], tmp_path)
+        model = mujoco.MjModel.from_xml_path(str(tmp_path / "scene.xml"))
+        model.opt.gravity[:] = 9.81 * np.array([math.sin(SLOPE), 0.0, -math.cos(SLOPE)])
+        pads = [i for i in range(model.ngeom) if model.geom(i).name.endswith(".pad")]
+        assert len(pads) == 2
+        for i in range(model.nnumeric) if brakes else ():
+            joint = model.joint(model.numeric(i).name.removesuffix(".brake"))
+            model.dof_frictionloss[joint.dofadr[0]] = model.numeric(i).data[0]
+        model.geom_contype[pads] = int(brakes)
+        data = mujoco.MjData(model)
+        mujoco.mj_step(model, data, 1000)
+        before = data.qpos[:3].copy()
+        mujoco.mj_step(model, data, 1000)
+        moved[brakes] = float(np.linalg.norm(data.qpos[:3] - before))
+    assert moved[False] > 4e-3 and moved[True] < 1e-5
 
 
 @pytest.mark.parametrize("engine", [pytest.param("newton", marks=pytest.mark.slow), "physx"])

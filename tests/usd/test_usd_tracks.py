@@ -14,7 +14,7 @@ from kit.machines.crawler import crawler
 from kit.machines.solids import box, lathe
 from kit.machines.tracked_template import write_tracked_template
 from yellowiron import kinematics, usd
-from yellowiron.exporters import export_mjcf
+from yellowiron.exporters import export_mjcf, read_geometry
 from yellowiron.library import load_template
 from yellowiron.mechanism import build_mechanism
 from yellowiron.model.mechanism import Mechanism
@@ -49,7 +49,7 @@ def test_comes_back(machines: dict[str, tuple[Mechanism, Path]], tracks: str) ->
     read = usd.read_mechanism(folder / "crawler.usda")
     assert read.floating == built.floating
     assert [j.cut for j in read.joints] == [j.cut for j in built.joints]
-    assert {b.name: b.shapes for b in read.bodies} == {b.name: b.shapes for b in built.bodies}
+    assert {b.name: (b.shapes, b.pads) for b in read.bodies} == {b.name: (b.shapes, b.pads) for b in built.bodies}
 
 
 def test_rings_are_not_in_the_articulation(machines: dict[str, tuple[Mechanism, Path]]) -> None:
@@ -86,6 +86,40 @@ def test_balls(machines: dict[str, tuple[Mechanism, Path]]) -> None:
     radius = UsdGeom.Sphere(balls[0]).GetRadiusAttr().Get()
     assert radius == built.body("track_wheel_l_1").shapes[0].radius
     assert not [p for p in stage.Traverse() if p.HasAPI(UsdPhysics.CollisionAPI) and p.GetName().startswith("shoe")]
+
+
+def test_tracks_are_pads_while_the_brakes_are_set(machines: dict[str, tuple[Mechanism, Path]]) -> None:
+    built, folder = machines["belt"]
+    stage = Usd.Stage.Open(str(folder / "crawler.usda"))
+    touching = {}
+    for brakes in ("released", "set"):
+        stage.GetDefaultPrim().GetVariantSet("Brakes").SetVariantSelection(brakes)
+        colliders = [UsdPhysics.CollisionAPI(p) for p in stage.Traverse() if p.HasAPI(UsdPhysics.CollisionAPI)]
+        kinds = [c.GetPrim().GetTypeName() for c in colliders if c.GetCollisionEnabledAttr().Get()]
+        touching[brakes] = kinds.count("Sphere"), sum("_pad_" in c.GetPrim().GetName() for c in colliders)
+    assert touching == {"released": (6, 0), "set": (0, 2)}
+    bounds = UsdGeom.BBoxCache(Usd.TimeCode.Default(), [UsdGeom.Tokens.default_, UsdGeom.Tokens.guide])
+    for pad in built.body("undercarriage").pads:
+        prim = next(p for p in stage.Traverse() if p.GetName() == pad.name)
+        assert UsdShade.MaterialBindingAPI(prim).ComputeBoundMaterial("physics")[0]
+        box = bounds.ComputeWorldBound(prim).ComputeAlignedRange()
+        wheels = [built.body(f"track_wheel_{pad.name[-1]}_{k}").shapes[0] for k in (1, 3)]
+        assert box.GetMin()[2] == pytest.approx(0.0, abs=1e-6)
+        assert (box.GetMax()[0], box.GetMin()[0]) == pytest.approx([w.center[0] for w in wheels], abs=1e-6)
+        assert 0.5 * (box.GetMin()[1] + box.GetMax()[1]) == pytest.approx(wheels[0].center[1], abs=1e-6)
+
+
+def test_exports_have_the_brakes_released_whatever_the_file_selects(
+    machines: dict[str, tuple[Mechanism, Path]], tmp_path: Path
+) -> None:
+    stage = Usd.Stage.CreateNew(str(tmp_path / "braked.usda"))
+    machine = stage.DefinePrim("/crawler")
+    machine.GetReferences().AddReference(str(machines["belt"][1] / "crawler.usda"))
+    machine.GetVariantSet("Brakes").SetVariantSelection("set")
+    stage.Save()
+    found = read_geometry(tmp_path / "braked.usda").bodies
+    assert not [c for c in found["undercarriage"].colliders if "_pad_" in c.name]
+    assert all(c.kind == "sphere" for name, body in found.items() if "wheel" in name for c in body.colliders)
 
 
 def test_friction_rules_in_every_engine(machines: dict[str, tuple[Mechanism, Path]], tmp_path: Path) -> None:

@@ -66,8 +66,8 @@ class Geometry:
 
 
 def read_geometry(path: str | Path | Geometry, *, detail: str = DETAILS[0]) -> Geometry:
-    """The geometry of the machine in a USD file (or in a scene that holds one), its physics switched on and its
-    colliders in that `detail`, whatever the file selects; one that was read before is itself.
+    """The geometry of the machine in a USD file (or in a scene that holds one), its physics switched on, its brakes
+    released and its colliders in that `detail`, whatever the file selects; one that was read before is itself.
 
     `YellowironError` where the file does not open or holds no machine of ours, or there is no such detail.
     """
@@ -86,7 +86,7 @@ def read_geometry(path: str | Path | Geometry, *, detail: str = DETAILS[0]) -> G
             "The file cannot be read as USD", where=str(path), hint="It is damaged or no USD; write it again."
         ) from error
     with Usd.EditContext(stage, stage.GetSessionLayer()):
-        for name, choice in (("Physics", "on"), (DETAIL, detail)):
+        for name, choice in (("Physics", "on"), ("Brakes", "released"), (DETAIL, detail)):
             for prim in [p for p in stage.Traverse() if p.GetVariantSets().HasVariantSet(name)]:
                 prim.GetVariantSet(name).SetVariantSelection(choice)
     bodies = {str(data["name"]): prim for prim, data in _described(stage) if data.get("kind") == "body"}

@@ -68,7 +68,8 @@ class Body:
     """A rigid body. `origin` is its frame's origin (axes parallel to the machine's in the drawn pose);
     `center_of_mass` and `inertia` (3, 3, kg·m² about the centre of mass) are in the machine frame. `hull` (n, 3):
     corners of the convex hulls of its parts in the machine frame, for extents and ground contact. `shapes` are
-    colliders of its own: a hidden wheel has no parts, and a frame drawn in one with its tracks collides as a box."""
+    colliders of its own: a hidden wheel has no parts, and a frame drawn in one with its tracks collides as a box.
+    `pads` are those with which it stands on the ground while the parking brakes are set, in place of hidden wheels."""
 
     name: str
     origin: Vector
@@ -79,6 +80,7 @@ class Body:
     hull: Floats
     source: str = ""
     shapes: tuple[BodyShape, ...] = ()
+    pads: tuple[BodyShape, ...] = ()
 
 
 SLOWED = 0.75

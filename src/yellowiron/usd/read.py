@@ -182,6 +182,7 @@ class _Reader:
             hull=self._hull(prim, origin),
             source=str(data.get("source", "")),
             shapes=from_json(tuple[BodyShape, ...], data["shapes"]) if "shapes" in data else (),
+            pads=from_json(tuple[BodyShape, ...], data["pads"]) if "pads" in data else (),
         )
 
     def _origin(self, prim: Usd.Prim) -> Floats:

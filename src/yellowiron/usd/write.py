@@ -16,7 +16,7 @@ from yellowiron.model.mechanism import Mechanism
 from yellowiron.usd.authoring.materials import copy_textures, write_pictures
 from yellowiron.usd.authoring.stage import create_layer, define, save_layer
 from yellowiron.usd.layers.base import is_mirrored, write_bodies
-from yellowiron.usd.layers.brakes import write_brakes
+from yellowiron.usd.layers.brakes import write_brakes, write_pads
 from yellowiron.usd.layers.geometry import write_hulls, write_mirrored, write_pieces, write_prototypes, write_solids
 from yellowiron.usd.layers.mujoco import write_mujoco
 from yellowiron.usd.layers.physics import write_physics
@@ -65,6 +65,7 @@ def write_machine(
         _write_geometry(geometry, plan, textures)
         write_bodies(base, plan)
         write_physics(physics, base, plan)
+        write_pads(physics, plan)
         write_physx(physx, base, plan)
         write_brakes(physx, plan, "physx")
         write_contact_reports(physx, plan)

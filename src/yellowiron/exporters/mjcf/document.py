@@ -30,6 +30,8 @@ _BARE = "0.8 0.65 0.2 1"
 
 _JOINTS = {"revolute": "hinge", "prismatic": "slide", "spherical": "ball"}
 _FAR = 1e6
+PAD_BIT = "8"
+"""Of `conaffinity`: nothing has it in its `contype`."""
 _THIN = 0.02
 """Metres: how thick a tendon is shown whose rod is not known."""
 _POSITIONS = {"revolute": 1, "prismatic": 1, "spherical": 4, "fixed": 0}
@@ -169,6 +171,11 @@ class _Document:
         ET.SubElement(visual, "geom", type="mesh", contype="0", conaffinity="0", group="2", mass="0")
         collision = ET.SubElement(inner, "default", {"class": "collision"})
         touched = ET.SubElement(collision, "geom", contype="1", conaffinity="0", group="3", mass="0")
+        pad = ET.SubElement(inner, "default", {"class": "pad"}) if any(b.pads for b in self._mechanism.bodies) else None
+        if pad is not None:
+            # They touch nothing, until who sets the brakes gives them contype 1. A bit of their own: MuJoCo leaves what
+            # has none out of its search for contacts when it compiles.
+            ET.SubElement(pad, "geom", type="box", contype="0", conaffinity=PAD_BIT, group="4", mass="0")
         if not self._drawn_apart:
             touched.set("group", "2")
             touched.set("rgba", _BARE)
@@ -210,6 +217,12 @@ class _Document:
             fullinertia=row([inertia[i, j] for i, j in ((0, 0), (1, 1), (2, 2), (0, 1), (0, 2), (1, 2))]),
         )
         self._geometry_of(element, body.name, self._geometry.bodies.get(body.name, BodyGeometry()))
+        for pad in body.pads:
+            friction = self._mechanism.materials[pad.material].dynamic_friction if pad.material else None
+            rubs = {} if friction is None else {"friction": text(friction)}
+            size = row([0.5 * edge for edge in pad.size or ()])
+            at = np.array(minus(pad.center, body.origin))
+            self._geom(element, "pad", f"{pad.name}.pad", at, quaternion(np.eye(3)), size=size, **rubs)
         for site in self._mechanism.sites:
             if site.body == body.name:
                 rotation = quaternion(axes_of(site))

@@ -8,11 +8,15 @@ hardly turns on the spot, since their two ends hold against each other. Together
 hoops: a hoop of mass m that rolls with speed v turns with the energy m v²/2, and so does a chain of that mass that
 runs around with v. The body that the track moves with loses their mass and moments, so that the machine's mass, centre
 and inertia in the drawn pose stay what they are.
+
+A track whose brake is set does not roll: it lies on the ground as a pad, as long and as wide as it is there. Balls do
+not for that. Those at the ends hardly hold, and a machine on a slope stands on them; and where a ball touches in one
+point, PhysX lets it creep by a millimetre or two a second.
 """
 
 from __future__ import annotations
 
-from collections.abc import Mapping, Sequence
+from collections.abc import Iterator, Mapping, Sequence
 from dataclasses import dataclass, replace
 
 import numpy as np
@@ -42,13 +46,14 @@ LEFT_OVER = 0.02
 
 @dataclass(frozen=True, eq=False)
 class HiddenWheel:
-    """One of them: `center` (3,) and `radius` in metres, machine frame; `rows` of the parts it stands for and its
-    `share` of their mass; `carrier`, the body that these move with. `inner`: y of the track's inner edge, where these
-    parts are its frame too."""
+    """One of them: `center` (3,) and `radius`, machine frame, the `width` of the track, metres; `rows` of the parts it
+    stands for and its `share` of their mass; `carrier`, the body that these move with. `inner`: y of the track's inner
+    edge, where these parts are its frame too."""
 
     role: str
     center: Floats
     radius: float
+    width: float
     rows: tuple[int, ...]
     share: float
     carrier: str
@@ -91,7 +96,8 @@ def hidden_wheels(placement: Placement, template: Template, findings: list[Findi
         for role, at in zip(roles, rule["at"], strict=True):
             center = np.array([middle + at * length, 0.5 * (low[1] + high[1]), low[2] + radius + rule["above"]])
             share = part_of * rule["mass"] / len(roles)
-            found[role.name] = HiddenWheel(role.name, center, radius, parts, share, placement.bodies[parts[0]], inner)
+            carrier, width = placement.bodies[parts[0]], float(high[1] - low[1])
+            found[role.name] = HiddenWheel(role.name, center, radius, width, parts, share, carrier, inner)
     return found
 
 
@@ -150,10 +156,11 @@ def with_wheels(
         mass = wheel.share * sum(masses[placement.parts[row].id] for row in wheel.rows)
         by_name[name] = _wheel(wheel, mass, weighed.key_of_role(name))
     for carrier in dict.fromkeys(w.carrier for w in wheels.values()):
-        made = [by_name[n] for n, w in wheels.items() if w.carrier == carrier]
-        stood_for = frozenset(placement.ids(row for w in wheels.values() if w.carrier == carrier for row in w.rows))
-        by_name[carrier] = lighter(_bare(by_name[carrier], stood_for), made, findings)
-        by_name[carrier] = _between(by_name[carrier], [w for w in wheels.values() if w.carrier == carrier], placement)
+        own = [w for w in wheels.values() if w.carrier == carrier]
+        stood_for = frozenset(placement.ids(row for w in own for row in w.rows))
+        body = lighter(_bare(by_name[carrier], stood_for), [by_name[w.role] for w in own], findings)
+        pads = tuple(_pad(carrier, side, by_name) for side in _sides(own))
+        by_name[carrier] = replace(_between(body, own, placement), pads=pads)
     return tuple(by_name[name] for name in order)
 
 
@@ -225,6 +232,26 @@ def _wheel(wheel: HiddenWheel, mass: float, material: str) -> Body:
     shape = BodyShape(wheel.role, center, r, material)
     source = f"hidden wheel: {wheel.share:.3g} of the track's mass, as a hoop"
     return Body(wheel.role, center, mass, center, inertia, (), corners, source, (shape,))
+
+
+def _sides(wheels: Sequence[HiddenWheel]) -> Iterator[list[HiddenWheel]]:
+    """Those on the left, and those on the right, where there are any."""
+    for left in (True, False):
+        if side := [wheel for wheel in wheels if (wheel.center[1] > 0.0) == left]:
+            yield side
+
+
+def _pad(carrier: str, side: Sequence[HiddenWheel], bodies: Mapping[str, Body]) -> BodyShape:
+    """One track, braked: a box from its first to its last wheel, as high as their axles. It grips as that wheel does
+    which reaches farthest down."""
+    centers = np.array([wheel.center for wheel in side])
+    lowest = min(side, key=lambda wheel: float(wheel.center[2]) - wheel.radius)
+    bottom, top = float(lowest.center[2]) - lowest.radius, float(lowest.center[2])
+    first, last = float(centers[:, 0].min()), float(centers[:, 0].max())
+    center = clean_triple([0.5 * (first + last), float(centers[:, 1].mean()), 0.5 * (bottom + top)])
+    size = clean_triple([max(last - first, lowest.radius), lowest.width, top - bottom])
+    name = f"{carrier}_pad_{'l' if center[1] > 0.0 else 'r'}"
+    return BodyShape(name, center, 0.5 * max(size), bodies[lowest.role].shapes[0].material, size)
 
 
 def _moments(body: Body) -> Moments:

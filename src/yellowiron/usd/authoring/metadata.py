@@ -67,6 +67,7 @@ def describe_body(body: Body) -> dict[str, Any]:
         "inertia": Gf.Matrix3d(np.asarray(body.inertia, dtype=np.float64).tolist()),
         "source": body.source,
         "shapes": to_json(body.shapes) if body.shapes else None,
+        "pads": to_json(body.pads) if body.pads else None,
     }
 
 

@@ -76,13 +76,13 @@ def _write_solids(layer: Sdf.Layer, plan: Plan, body: str) -> None:
     scope = f"{plan.body_paths[body]}/{COLLIDERS}"
     found = list(solid_paths(plan, body))
     if found:
-        _collider_scope(layer, plan.body_paths[body])
+        collider_scope(layer, plan.body_paths[body])
     if layer.GetPrimAtPath(scope) is None:
         return
     declare_variants(over(layer, plan.root), DETAIL, DETAILS)
     for path, solid in found:
         if solid.data.primitive is not None:
-            _write_primitive(layer, path, solid.data.primitive)
+            write_primitive(layer, path, solid.data.primitive)
         else:
             add_reference(define(layer, path, "Mesh"), f"./{GEOMETRY_FILE}", solid.path)
         set_custom(over(layer, path), describe_collider(solid.data.parts))
@@ -120,19 +120,19 @@ def _write_colliders(
     colliding = [placed for placed in parts if placed.collides]
     if not colliding:
         return
-    _collider_scope(layer, body)
+    collider_scope(layer, body)
     for placed in colliding:
         path = f"{body}/{COLLIDERS}/{placed.name}"
         primitive = None
         if placed.approximation.token == "analytic" and (fitted := primitives(placed.prototype.shape)) is not None:
             primitive = fitted.placed(placed.matrix)
         if primitive is not None:
-            _write_primitive(layer, path, primitive)
+            write_primitive(layer, path, primitive)
         else:
             _write_mesh_collider(layer, path, placed)
 
 
-def _collider_scope(layer: Sdf.Layer, body: str) -> None:
+def collider_scope(layer: Sdf.Layer, body: str) -> None:
     """The scope of a body's colliders, hidden as guides."""
     if layer.GetPrimAtPath(f"{body}/{COLLIDERS}") is None:
         scope = define(layer, f"{body}/{COLLIDERS}", "Scope")
@@ -143,11 +143,11 @@ def _write_shapes(layer: Sdf.Layer, path: str, body: Body) -> None:
     """A body's own colliders, which no CAD part has: balls and boxes."""
     if not body.shapes:
         return
-    _collider_scope(layer, path)
+    collider_scope(layer, path)
     for shape in body.shapes:
         primitive = Primitive.of(shape)
         own = replace(primitive, center=primitive.center - np.asarray(body.origin))
-        _write_primitive(layer, shape_path(path, shape), own)
+        write_primitive(layer, shape_path(path, shape), own)
 
 
 def shape_path(body: str, shape: BodyShape) -> str:
@@ -179,7 +179,7 @@ def _write_mesh_collider(layer: Sdf.Layer, path: str, placed: PlacedPart) -> Non
     set_transform(spec, placed.matrix @ np.diag([-1.0, 1.0, 1.0, 1.0]) if mirrored else placed.matrix)
 
 
-def _write_primitive(layer: Sdf.Layer, path: str, primitive: Primitive) -> None:
+def write_primitive(layer: Sdf.Layer, path: str, primitive: Primitive) -> None:
     """An analytic collider in its body's frame."""
     spec = define(layer, path, _PRIMITIVE_TYPES[primitive.kind])
     center, size = primitive.center, primitive.size

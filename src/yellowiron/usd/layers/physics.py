@@ -32,11 +32,11 @@ def write_physics(layer: Sdf.Layer, base: Sdf.Layer, plan: Plan) -> None:
             if placed.collides:
                 _write_collider(layer, base, f"{spec.path}/{COLLIDERS}/{placed.name}", placed, plan)
         for path, solid in solid_paths(plan, body.name):
-            _write_touching(over(layer, path), solid.data.material, plan)
+            write_touching(over(layer, path), solid.data.material, plan)
             if solid.data.primitive is None:
                 _write_approximation(over(layer, path), "convexHull")
         for shape in body.shapes:
-            _write_touching(over(layer, shape_path(str(spec.path), shape)), shape.material, plan)
+            write_touching(over(layer, shape_path(str(spec.path), shape)), shape.material, plan)
     _write_filtered_pairs(layer, plan)
     write_joints(layer, plan)
     write_pin_links(layer, plan.pin_links, plan.mechanism, plan.body_paths)
@@ -61,12 +61,12 @@ def _write_collider(layer: Sdf.Layer, base: Sdf.Layer, path: str, placed: Placed
         _write_approximation(over(layer, f"{path}/{MESH}"), placed.approximation.usd)
     for piece in [f"{path}/{PIECE}{n}" for n in range(1, len(placed.pieces) + 1)] or [path]:
         spec = over(layer, piece)
-        _write_touching(spec, placed.data.material, plan)
+        write_touching(spec, placed.data.material, plan)
         if placed.pieces or base.GetPrimAtPath(path).typeName == "Mesh":
             _write_approximation(spec, "convexHull" if placed.pieces else placed.approximation.usd)
 
 
-def _write_touching(spec: Sdf.PrimSpec, material: str, plan: Plan) -> None:
+def write_touching(spec: Sdf.PrimSpec, material: str, plan: Plan) -> None:
     """A collider, of a material where one is named."""
     apply_schemas(spec, "PhysicsCollisionAPI")
     path = plan.material_paths.get(material)
