@@ -11,6 +11,7 @@ from scipy.spatial.transform import Rotation
 
 from yellowiron.support.convex.solids import (
     CORNERS,
+    OBLONG,
     THINNEST,
     Convex,
     convex,
@@ -45,6 +46,32 @@ def test_boxes_against_fcl() -> None:
     assert 0.2 < hits / 150 < 0.9
 
 
+@given(
+    st.tuples(st.floats(0.5, 6.0), st.floats(0.05, 1.0), st.floats(1e-4, 0.05)),
+    st.permutations(range(3)),
+    st.booleans(),
+)
+@settings(max_examples=60, deadline=None)
+def test_no_hull_is_too_thin_or_too_oblong_to_be_cooked(
+    edges: tuple[float, float, float], order: list[int], turned: bool
+) -> None:
+    """Rails and plates along the axes are what PhysX measures as oblong; what lies across them it measures shorter."""
+    drawn = CUBE * np.array(edges)[order]
+    if turned:
+        drawn = drawn @ Rotation.from_euler("xyz", [0.1, 0.2, 0.7]).as_matrix().T
+    made = convex(drawn)
+    mesh = trimesh.Trimesh(made.corners, made.triangles, process=False)
+    breadths = np.ptp(made.corners @ made.planes[:, :3].T, axis=0)
+    assert breadths.min() > THINNEST - 1e-9
+    radius = -made.beyond(mesh.center_mass[None])[0]
+    axis = int(np.argmax(made.high - made.low))
+    box = CUBE * np.where(np.arange(3) == axis, 200.0 * radius, 2.0 * radius / np.sqrt(3.0))
+    assert made.beyond(box + mesh.center_mass).max() > 0.0
+    # No more than that takes.
+    more = np.ptp(made.corners, axis=0) - np.ptp(drawn, axis=0)
+    assert more.max() < max(THINNEST, 2.0 * np.ptp(drawn, axis=0).max() / OBLONG)
+
+
 @given(st.integers(0, 10_000), st.integers(8, 200))
 @settings(max_examples=40, deadline=None)
 def test_a_hull_is_what_it_is_of(seed: int, count: int) -> None:
@@ -73,7 +100,7 @@ def test_few_corners_are_enough(seed: int) -> None:
 
 
 def test_what_is_flat_gets_a_thickness() -> None:
-    flat = np.array([(0.0, 0.0, 0.0), (1.0, 0.0, 0.0), (1.0, 1.0, 0.0), (0.0, 1.0, 0.0)])
+    flat = 0.4 * np.array([(0.0, 0.0, 0.0), (1.0, 0.0, 0.0), (1.0, 1.0, 0.0), (0.0, 1.0, 0.0)])
     above = flat + np.array([0.0, 0.0, 0.002])
     for points in (flat, np.concatenate([flat, above])):
         assert np.ptp(convex(points).corners[:, 2]) == pytest.approx(THINNEST)

@@ -18,6 +18,9 @@ CORNERS = 64
 """Of a hull: PhysX cooks no more for a GPU."""
 THINNEST = 5e-3
 """Metres: a hull that is thinner is given this thickness; thinner ones are flat to some engines."""
+OBLONG = 90.0
+"""Times the radius of the ball in a hull: half as long may the box in it be. PhysX cooks none for a GPU with 100
+(`checkExtentRadiusRatio` of its cooking)."""
 _SPACING = 2.0
 """Points by which a surface is judged are this many tolerances apart at most …"""
 _FINEST = 0.02
@@ -78,14 +81,37 @@ class Convex:
 
 
 def convex(points: Floats) -> Convex:
-    """The hull of points (n, 3), which is no thinner than `THINNEST`."""
-    made = _solid(points)
-    breadths = np.ptp(made.corners @ made.planes[:, :3].T, axis=0)
+    """The hull of points (n, 3), which is no thinner than `THINNEST`, nor more `OBLONG`."""
+    return _thick(_solid(points))
+
+
+def _thick(solid: Convex) -> Convex:
+    """It with as much more thickness as engines ask for, half on either side."""
+    breadths = np.ptp(solid.corners @ solid.planes[:, :3].T, axis=0)
     thinnest = int(np.argmin(breadths))
-    if breadths[thinnest] < THINNEST:
-        lift = 0.5 * (THINNEST - breadths[thinnest]) * made.planes[thinnest, :3]
-        made = _solid(np.concatenate([made.corners + lift, made.corners - lift]))
-    return made
+    radius, half = _ball_and_box(solid)
+    lift = max(0.5 * (THINNEST - float(breadths[thinnest])), half / OBLONG - radius)
+    if lift <= 0.0:
+        return solid
+    by = lift * solid.planes[thinnest, :3]
+    return _solid(np.concatenate([solid.corners + by, solid.corners - by]))
+
+
+def _ball_and_box(solid: Convex) -> tuple[float, float]:
+    """Of a solid as PhysX measures it when it cooks it: the radius of the ball about its centre of mass that is in it,
+    and half the length of the box in it that reaches farthest along the longest edge of its own box, as broad as the
+    ball's cube. Metres."""
+    a, b, c = (solid.corners[solid.triangles[:, k]] - solid.corners[0] for k in range(3))
+    shares = np.einsum("ij,ij->i", np.cross(a, b), c)
+    total = float(shares.sum())
+    middle = solid.corners[0] + (shares @ (a + b + c) / (4.0 * total) if total > 0.0 else a.mean(axis=0))
+    inside = np.maximum(-(solid.planes[:, :3] @ middle + solid.planes[:, 3]), 0.0)
+    radius = float(inside.min())
+    longest = int(np.argmax(solid.high - solid.low))
+    normals = np.abs(solid.planes[:, :3])
+    room = inside - radius / np.sqrt(3.0) * (normals.sum(axis=1) - normals[:, longest])
+    along = normals[:, longest] > 1e-9
+    return radius, float((room[along] / normals[along, longest]).min(initial=np.inf))
 
 
 def _solid(points: Floats) -> Convex:
@@ -131,7 +157,7 @@ def with_few_corners(solid: Convex, most: int = CORNERS) -> Convex:
             break
         taken += apart[: most - len(taken)]
         made = _solid(points[taken])
-    return made
+    return _thick(made)
 
 
 def _farthest(points: Floats, taken: Sequence[int]) -> int:
