@@ -172,7 +172,7 @@ def _field(way: Way, votes: Sequence[Mapping[str, Any]], known: Mapping[str, flo
 def _lacks(way: Way, labels: np.ndarray, bodies: tuple[str, ...]) -> Mapping[str, float]:
     leading = [way.evidence.pieces[k] for k in way.evidence.leading]
     played = drawn_bodies(leading, labels, bodies, way.template, way.evidence.surface)
-    return lacks(way.template, played, way.evidence.stance.absent)
+    return lacks(way.template, played, way.evidence.stance.absent, len(leading))
 
 
 def _best_of(

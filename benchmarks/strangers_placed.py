@@ -104,9 +104,11 @@ def mjcf(job: Job) -> Placed:
 
 def urdf(job: Job, description: str = ".urdf") -> Placed:
     """Meshes by a robot description with all joints at 0; a mesh that two links have is named by link, and last; the
-    parts of a DAE file by themselves. Meshes that are not among the files (too large for the snapshot) are left out."""
+    parts of a DAE file by themselves. Meshes that are not among the files (too large for the snapshot) are left out;
+    the collision mesh stands for what is seen where only that is there."""
     there = {f.name for f in job.files}
-    root = ET.fromstring(_expanded(job.file(description).read_text(encoding="utf-8")))
+    document = ET.fromstring(_expanded(job.file(description).read_text(encoding="utf-8")))
+    root = max(document.iter(), key=lambda e: len(e.findall("link")))  # a macro, where one holds them all
     joints = root.findall("joint")
     frames = dict.fromkeys({j.find("parent").get("link") for j in joints}, np.eye(4))
     waiting = {j.find("child").get("link"): j for j in joints}
@@ -123,16 +125,66 @@ def urdf(job: Job, description: str = ".urdf") -> Placed:
             Path(mesh.get("filename")).name,
         )
         for link in root.findall("link")
-        for visual in link.findall("visual")
+        for visual in (*link.findall("visual"), *link.findall("collision"))
         for mesh in visual.findall("geometry/mesh")
         if Path(mesh.get("filename")).name in there
     ]
+    visuals = [v for k, v in enumerate(visuals) if v[::2] not in [u[::2] for u in visuals[:k]]]
     uses = Counter(file for _, _, file in visuals)
     for link, origin, file in sorted(visuals, key=lambda visual: uses[visual[2]]):
         name = link if uses[file] > 1 else Path(file).stem.removesuffix("_co2")
         for piece, mesh in _pieces(job.file(file), name):
             mesh.apply_transform(frames[link] @ origin)
             yield piece, mesh, np.eye(4)
+
+
+def page(job: Job) -> Placed:
+    """The meshes of a web page's excavator, each where the page's hinges and offsets put it as it starts; Y up. Left
+    out is what the page hides, and the track, which it lays out as it runs. Cylinders point at each other, as there."""
+    read = read_cad(job.file(".glb"))
+    hover = np.zeros(3)
+    cabin = hover + np.array((1.6, 3.0, 0.0)) - np.array((2.5, -4.5, -0.5))
+    boom = cabin + np.array((0.0, 0.5, -1.4)) - np.array((12.2, -9.15, 0.0))
+    arm = boom + np.array((-16.0, 7.0, 0.0)) - np.array((0.0, 7.0, 0.0))
+    bucket = arm + np.array((-0.2, -7.0, 0.0))
+    head = bucket + np.array((-0.80602, -2.24358, 0.0283))
+    offsets = {
+        "cabin_hover": (hover, (0.0, 0.0, 0.0)),
+        "cabin": (cabin, (0.0, 0.0, 0.0)),
+        "arm_inferior": (boom, (0.0, 0.0, 0.0)),
+        "arm_superior": (arm, (0.0, 0.0, 0.0)),
+        "pa": (bucket, (0.0, 0.0, 0.0)),
+        "lr_pistons": (cabin, (-3.87885, -3.47168, -1.21427)),
+        "lr_pistons_h": (boom, (2.74203, 3.08933, -0.11181)),
+        "tp_piston": (boom, (-1.14309, 5.9, 0.1926)),
+        "tp_piston_h": (arm, (-0.82789, 11.52722, 0.01848)),
+        "sup_pist": (arm, (-2.72146, 5.86068, 0.07616)),
+        "sup_piston_head": (head, (0.0, 0.0, 0.0)),
+        "sup_piston_head_base": (head, (0.0, 0.0, 0.0)),
+        "eng_di_esq": (hover, (-9.0, -0.6, 6.9)),
+        "eng_tr_dir": (hover, (9.6, -0.6, 6.9)),
+        "eng_di_dir": (hover, (-9.0, -0.6, -6.9)),
+        "eng_tr_esq": (hover, (9.6, -0.6, -6.9)),
+    }
+    places = {name: beside + np.array(by) for name, (beside, by) in offsets.items()}
+    aims = {
+        "lr_pistons": ("lr_pistons_h", -1.0), "lr_pistons_h": ("lr_pistons", 1.0), "tp_piston": ("tp_piston_h", -1.0),
+        "tp_piston_h": ("tp_piston", 1.0), "sup_pist": ("sup_piston_head", -1.0j),
+        "sup_piston_head_base": ("sup_pist", 1.0j),
+    }  # fmt: skip
+    for part in read.parts:
+        if part.name not in places:
+            continue
+        turn = np.eye(3)
+        if part.name in aims:
+            target, own = aims[part.name]
+            way = complex(*(places[target] - places[part.name])[:2]) / own
+            way /= abs(way)
+            turn[:2, :2] = (way.real, -way.imag), (way.imag, way.real)
+        shape = read.shape_of(part).mesh
+        frame = np.eye(4)
+        frame[:3, :3], frame[:3, 3] = turn, places[part.name]
+        yield part.name, trimesh.Trimesh(shape.points, shape.triangles, process=False), frame
 
 
 def xacro(job: Job) -> Placed:

@@ -57,6 +57,15 @@ def test_a_part_of_a_machine_misses_nothing_that_is_not_of_it(open_template: Tem
     assert (whole["part"], part["part"]) == (0, 1)
 
 
+def test_few_pieces_need_less_to_be_a_part_of_a_machine(open_template: Template) -> None:
+    """Four links of an excavator without its undercarriage were read as the undercarriage and what is on it: what each
+    piece said for the part was less than what spoke against any part at all."""
+    carrier = {"undercarriage"}
+    few, several, many = (lacks(open_template, set(), carrier, n)["part"] for n in (4, 7, 40))
+    assert (few, several, many) == (4, 7, 7)
+    assert lacks(open_template, set(), (), 40)["part"] == 0
+
+
 def test_names_of_bodies_that_only_some_machines_have_are_believed(open_template: Template) -> None:
     """A wheeled excavator's `SECOND_BOOM`, `BLADE` and their cylinders; its names were not believed at all."""
     chain = ["blade", "undercarriage", "upperstructure", "boom", "adjust_boom", "arm", "bucket"]

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import functools
 import math
 import weakref
 from collections.abc import Sequence
@@ -84,7 +85,7 @@ class Solid:
     knuckles: tuple[Cyl, ...] = ()
     balls: tuple[Ball, ...] = ()
 
-    @property
+    @functools.cached_property
     def size(self) -> float:
         """Diagonal of its box."""
         return float(np.linalg.norm(self.high - self.low))
@@ -94,7 +95,7 @@ class Solid:
         """True for hoses, rails and sheets."""
         return self.volume < SLIGHT * self.size**3
 
-    @property
+    @functools.cached_property
     def surface(self) -> float:
         """Its area in the CAD frame, m²."""
         return self.shape.area * abs(float(np.linalg.det(self.part.transform[:3, :3]))) ** (2 / 3)

@@ -72,6 +72,9 @@ class Annealing:
         self._nearly = NEAR * chains * count + there
         self._exactly = (EXACT + np.tile(field.kind[:-1], 2)) * chains * count + there
         self._exact_at = (EXACT + field.kind[field.joint]) * chains * count + np.arange(count)
+        # Where a chain's own counts begin, of joints and of labels.
+        self._joints_at = self._rows[:, None] * (field.joints + 1)
+        self._labels_at = self._rows[:, None] * count
         self.take(labels)
 
     def take(self, labels: Ints) -> None:
@@ -100,14 +103,17 @@ class Annealing:
 
     def _add(self, p: int, around: Floats, sign: int) -> None:
         """Counts a piece, with its labels, or (-1) no longer."""
-        rows, labels = self._rows, self.labels[:, p]
-        held = self.field.joint[labels]
+        labels = self.labels[:, p]
         # A joint stands once in a row; the number for none may stand there often, and nothing reads its count.
-        at = rows[:, None] * self.near.shape[1] + held
-        self.near.reshape(-1)[at] += sign * around[NEAR]
-        exact = around.reshape(-1).take(self._exact_at[labels] + rows[:, None] * self.played.shape[1])
-        self.exact.reshape(-1)[at] += sign * exact
-        self.played[rows, labels] += sign
+        at = self.field.joint.take(labels, axis=0)
+        at += self._joints_at
+        of_kind = self._exact_at.take(labels, axis=0)
+        of_kind += self._labels_at
+        count = np.add if sign > 0 else np.subtract
+        near, exact = self.near.reshape(-1), self.exact.reshape(-1)
+        near[at] = count(near.take(at), around[NEAR])
+        exact[at] = count(exact.take(at), around.reshape(-1).take(of_kind))
+        self.played[self._rows, labels] += sign
 
     def conditional(self, p: int) -> Floats:
         """(n, labels) what each label of piece p would score, all others as they are, up to a constant. The counts are
@@ -125,10 +131,11 @@ class Annealing:
         near = field.held[0] * (self.near[:, :-1] <= 0)
         exact = field.held[1] * (self.exact[:, :-1] <= 0)
         flat = around.reshape(-1)
-        gain = np.minimum(flat.take(self._nearly), 1.0)
-        gain *= np.concatenate([near, near], axis=1)
-        more = np.minimum(flat.take(self._exactly), 1.0)
-        more *= np.concatenate([exact, exact], axis=1)
+        gain, more = flat.take(self._nearly), flat.take(self._exactly)
+        for held, open_joints in ((gain, near), (more, exact)):
+            np.minimum(held, 1.0, out=held)
+            ends = held.reshape(len(held), 2, field.joints)  # each joint from its one end, then from its other
+            ends *= open_joints[:, None]
         gain += more
         scores += gain @ self._gains
         self._last = around

@@ -77,6 +77,13 @@ class Field:
         return np.flatnonzero(self.near)
 
     @cached_property
+    def numbers(self) -> tuple[Ints, Ints, Ints, Ints]:
+        """Where a piece's labels, and a bond's `exact`, begin; the pieces at either end of the bonds."""
+        pieces, count = self.unary.shape
+        first, second = np.ascontiguousarray(self.ends.T)
+        return np.arange(pieces) * count, np.arange(len(self.ends)) * len(KINDS), first, second
+
+    @cached_property
     def by_pair(self) -> Floats:
         """(labels * labels, 4) what two labels are to each other, as numbers: one body, joined, one body or twins, and
         `farther`: what a bond's `weights` and `order` count."""
@@ -207,12 +214,15 @@ def weighed(features: Features, weights: Features) -> float:
 
 def scores_of(field: Field, labels: Ints) -> Floats:
     """(n,) what each of several labellings (n, pieces) scores."""
-    rows, (pieces, count) = np.arange(len(labels))[:, None], field.unary.shape
-    pairs = labels.take(field.ends[:, 0], axis=1) * count + labels.take(field.ends[:, 1], axis=1)
+    rows, (_, count) = np.arange(len(labels))[:, None], field.unary.shape
+    of_piece, of_bond, first, second = field.numbers
+    pairs = labels.take(first, axis=1)
+    pairs *= count
+    pairs += labels.take(second, axis=1)
     held = field.joint.ravel().take(pairs)
-    total = field.unary.ravel().take(np.arange(pieces) * count + labels).sum(axis=1)
+    total = field.unary.ravel().take(of_piece + labels).sum(axis=1)
     total += field.by_pair.take(pairs, axis=0).reshape(len(labels), -1) @ field.by_bond
-    exact = field.exact.ravel().take(np.arange(held.shape[1]) * len(KINDS) + field.kind.take(held)) > 0
+    exact = field.exact.ravel().take(of_bond + field.kind.take(held)) > 0
     of_joints = held + (field.joints + 1) * rows
     # The last column is no joint, or no body.
     near_held = _there(of_joints.take(field.nearly, axis=1), len(labels), field.joints + 1)[:, :-1]

@@ -13,6 +13,9 @@ from yellowiron.model.template import Template
 SLIGHT = 0.03
 """Of a body's usual share of the surface: with less it is not drawn, and what was taken for it is a pin or a lug."""
 
+ENOUGH = 7
+"""So many leading pieces say of a machine's being drawn in part as much as more of them."""
+
 
 def drawn_bodies(
     pieces: Sequence[Piece], labels: np.ndarray, bodies: Sequence[str], template: Template, surface: float
@@ -35,13 +38,15 @@ def missing_bodies(template: Template, played: Collection[str]) -> list[str]:
     return [r.name for r in wanted if drawn or r.kind not in BARS]
 
 
-def lacks(template: Template, played: Collection[str], absent: Collection[str] = ()) -> Features:
+def lacks(template: Template, played: Collection[str], absent: Collection[str] = (), pieces: int = 1) -> Features:
     """What speaks against a variant: every body that it has (`more`: what a simpler machine explains as well is the
     simpler one), and every one of them that is not `played` (`missing`). Links may be too small for a leading piece:
-    they are not missed; nor are the `absent` bodies, which a part of a machine lacks (`part`)."""
+    they are not missed; nor are the `absent` bodies, which a part of a machine lacks. What speaks against its being a
+    part (`part`) is as many times as it has leading `pieces`, for and against which each speaks, but not more than
+    `ENOUGH`: the places of many err together."""
     bodies = {r.name for r in template.roles if r.rigid and not r.optional} - set(absent)
     missed = [b for b in missing_bodies(template, played) if b in bodies and not _slight(b, template)]
-    return {"missing": len(missed), "more": len(bodies), "part": float(bool(absent))}
+    return {"missing": len(missed), "more": len(bodies), "part": float(min(pieces, ENOUGH) if absent else 0)}
 
 
 def _slight(body: str, template: Template) -> bool:

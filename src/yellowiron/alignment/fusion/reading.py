@@ -207,7 +207,7 @@ def _said(evidence: Evidence, votes: Votes, bodies: Sequence[str], labels: np.nd
 def _lacking(evidence: Evidence, bodies: Sequence[str], labels: np.ndarray, template: Template) -> float:
     """What a labelling loses by what the variant has and nothing plays."""
     played = _drawn(evidence, bodies, labels, template)
-    lacking = lacks(template, played, evidence.stance.absent)
+    lacking = lacks(template, played, evidence.stance.absent, len(evidence.leading))
     return weighed({**lacking, "place": evidence.crowding}, weights())
 
 
