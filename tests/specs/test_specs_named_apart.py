@@ -9,12 +9,15 @@ from pathlib import Path
 import pytest
 from specs_layouts import canvas, put, template, wanted
 
+from yellowiron.library import load_template
 from yellowiron.model.specification import Specifications
 from yellowiron.specs import extract
 from yellowiron.specs.language.numbers import read
 from yellowiron.specs.layout.statement import Statement, is_key, looks_like_value, without_key, without_last_keys
 from yellowiron.specs.machines import with_machines
+from yellowiron.specs.values.claims import claims_of
 from yellowiron.specs.values.enumerations import enumerated
+from yellowiron.specs.values.matching import match
 
 BARE = Statement(page=1, row=1, label="", text="1 m", box=(0.0, 0.0, 1.0, 1.0), quote="")
 ASKED = template(
@@ -180,3 +183,23 @@ def test_rows_that_end_in_the_number_that_they_begin_with(tmp_path: Path, ruled:
     assert found["Blade Height"] == ("ok", 3.1)
     assert found["Blade Weight"] == ("ok", 16570.0)
     assert found["Raise Time"] == ("ok", 11.0)
+
+
+def matched(*statements: Statement) -> dict[str, list[float]]:
+    asked = load_template("excavator").wanted
+    found = match(claims_of(statements, "point"), asked)
+    return {n: sorted(m.claim.quantity.si_value for m in own if not m.rest) for n, own in found.items() if own}
+
+
+def test_what_a_part_lends_its_name_to_is_not_the_machines() -> None:
+    boom = replace(BARE, label="Height", text="2,050 mm", section="Shovel Boom")
+    assert "Overall Height" not in {n for n, own in matched(boom).items() if own}
+    width = replace(BARE, label="Shoe width", text="790 mm", context=("Undercarriage",))
+    assert matched(width) == {"Shoe Width": [0.79]}
+
+
+def test_a_heading_over_one_of_two_that_are_called_the_same_does_not_choose() -> None:
+    first = replace(BARE, label="SAE J1349 Net, DIN 6271", text="285 kW", section="Engine")
+    second = replace(first, row=2, text="309 kW", section="")
+    other = replace(first, row=3, text="40 kW", section="Fan drive")
+    assert matched(first, second, other)["Net Power"] == [285e3, 309e3]

@@ -99,7 +99,22 @@ def match(claims: Sequence[Claim], wanted: Sequence[Wanted]) -> dict[str, list[M
             # where no other label does.
             unsaid = len(kept) > 1 and (_EXTREME & set(tokens(one.wanted.name))) - said.label - said.head - said.context
             found[one.wanted.name].append(replace(one, score=one.score - _UNSAID) if unsaid else one)
+    _add_twins(found, claims)
     return _ends_told_apart({name: _without_shared_headings(own) for name, own in found.items()}, wanted)
+
+
+def _add_twins(found: dict[str, list[Match]], claims: Sequence[Claim]) -> None:
+    """To each value's matches those of the same label under no heading at all, where a heading had to help: nothing says
+    that they are another value's."""
+    matched = {id(m.claim) for own in found.values() for m in own}
+    bare: dict[tuple[str, str], list[Claim]] = {}
+    for claim in claims:
+        place = claim.statement
+        if id(claim) not in matched and not (place.column or place.context or place.section):
+            bare.setdefault((claim.words, claim.quantity.dimension), []).append(claim)
+    for own in found.values():
+        first = {(m.claim.words, m.claim.quantity.dimension): m for m in own if m.by_label and not m.by_head}
+        own += [replace(m, claim=claim) for key, m in first.items() for claim in bare.get(key, ())]
 
 
 def _by_own_name(matches: list[Match]) -> list[Match]:
@@ -154,7 +169,12 @@ def _of_part(matches: Sequence[Match]) -> list[Match]:
     """The matches without those of the machine where a sub-heading makes their words a part's: "Blade | Height"."""
     named = [(m, frozenset(tokens(m.phrase))) for m in matches]
     parts = [frozenset(tokens(c)) for m in matches[:1] for c in m.claim.statement.context if names_a_part(c)]
-    return [m for m, words in named if not any(words < other and other - words in parts for _, other in named)]
+    return [
+        m
+        for m, words in named
+        if words == frozenset(tokens(m.wanted.name))  # a "Shoe width" under "Undercarriage" is no undercarriage's
+        or not any(words < other and other - words in parts for _, other in named)
+    ]
 
 
 def _of_possible(matches: Sequence[Match], said: _Said) -> list[Match]:
@@ -328,9 +348,12 @@ def _match(asked_for: _Asked, claim: Claim, said: _Said) -> Match | None:
         if headed or words & lent:  # it may name another one's part: "lift arm cylinder", "Total weight" of "Buckets"
             named = words - explained - (frozenset() if headed else asked_for.words)
             rest |= {t for t in named if _is_others(t, asked_for, explained | words, claim, said)}
-    if {t for t in label if len(t) > 1} <= _MEASURES:  # the width of an "Upper protection screen" is no structure's
+    bare = {t for t in label if len(t) > 1}
+    if bare <= _MEASURES:  # the width of an "Upper protection screen" is no structure's
         for words in (*said.contexts, section):
             rest |= {t for t in words - explained - _SAYS_NOTHING if words & lent and t.isalpha() and t not in KNOWN}
+        if bare and _WHOLE & asked_for.name:  # a "Boom"'s own "Height" is not the machine's over its boom
+            rest |= {t for t in lent - asked_for.name if names_a_part(t)}
     worded = frozenset[str]().union(*(words for words in said.naming if not any(map(_is_number, words))))
     if ((label | context | section | worded) - explained) & REVERSING:  # the head "VS 135" is a model
         return None
