@@ -104,8 +104,8 @@ def match(claims: Sequence[Claim], wanted: Sequence[Wanted]) -> dict[str, list[M
 
 
 def _add_twins(found: dict[str, list[Match]], claims: Sequence[Claim]) -> None:
-    """To each value's matches those of the same label under no heading at all, where a heading had to help: nothing says
-    that they are another value's."""
+    """Adds to a value's matches those of the same label under no heading at all: nothing says that they are another
+    one's, where a heading had to help the first."""
     matched = {id(m.claim) for own in found.values() for m in own}
     bare: dict[tuple[str, str], list[Claim]] = {}
     for claim in claims:
@@ -387,7 +387,8 @@ def _explanation(asked_for: _Asked, said: _Said, *, supported: bool) -> _Explana
     optional = (_EXTREME if wanted.dimension in _RATED else set()) - everything
     # What names the model of the column, too, is the page's title.
     title = bool((section & head) - KNOWN - NEUTRAL)
-    headed = bool(wanted.sections) and not section <= GENERAL and not title and wanted.dimension != "time"
+    nearest = said.contexts[-1] if said.contexts else section  # a title over "Specifications" is the machine's
+    headed = bool(wanted.sections) and not nearest <= GENERAL and not title and wanted.dimension != "time"
     vague = VAGUE if headed else frozenset[str]()
     # One word alone is little: beside it only what no other value's words have passes for a remark.
     remarks = HARMLESS - asked_for.others.keys()
