@@ -352,8 +352,9 @@ def _match(asked_for: _Asked, claim: Claim, said: _Said) -> Match | None:
     if bare <= _MEASURES:  # the width of an "Upper protection screen" is no structure's
         for words in (*said.contexts, section):
             rest |= {t for t in words - explained - _SAYS_NOTHING if words & lent and t.isalpha() and t not in KNOWN}
-        if bare and _WHOLE & asked_for.name:  # a "Boom"'s own "Height" is not the machine's over its boom
-            rest |= {t for t in lent - asked_for.name if names_a_part(t)}
+    if _WHOLE & asked_for.name:  # a "Boom"'s own "Height" is not the machine's over its boom
+        parts = (lent if bare and bare <= _MEASURES else set()) | (label if headed else set())
+        rest |= {t for t in parts - asked_for.name if names_a_part(t)}
     worded = frozenset[str]().union(*(words for words in said.naming if not any(map(_is_number, words))))
     if ((label | context | section | worded) - explained) & REVERSING:  # the head "VS 135" is a model
         return None

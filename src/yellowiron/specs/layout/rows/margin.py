@@ -36,11 +36,12 @@ def without_keys(lines: Sequence[TextLine]) -> list[TextLine]:
         if (
             len(column) >= 3
             and len(set(texts)) == len(texts)
-            and sum(beside for _, beside in column) >= 0.6 * len(column)
+            and sum(beside for _, beside in column) >= (0.4 if _one_by_one(texts) else 0.6) * len(column)
             and not all(is_unit(t) for t in texts)
             and _counts([piece for piece, _ in column if piece.bare[0].isdigit()], lines)
         ):
-            keys.update(piece for piece, beside in column if beside)
+            # A number has a label behind it, whether or not that has a value: "7  Track gauge" over its rows.
+            keys.update(piece for piece, beside in column if beside or piece.bare[0].isdigit())
     again = [line.pieces[-1] for line in lines if _repeats(line)]
     if len(again) >= _FEWEST_REPEATED:
         keys.update(again)
@@ -88,6 +89,10 @@ def _counts(numbers: Sequence[TextPiece], lines: Sequence[TextLine]) -> bool:
     first = {line.pieces[0] for line in lines}
     if all(piece in first for piece in numbers):
         return ascending(texts)
+    return _one_by_one(texts)
+
+
+def _one_by_one(texts: Sequence[str]) -> bool:
     counted = [int(t) if t.isdecimal() else 0 for t in (text.strip("()[].:") for text in texts)]
     return all(b == a + 1 for a, b in pairwise(counted))
 
