@@ -226,11 +226,11 @@ def test_an_outlines_numbers_before_labels_that_rows_follow(tmp_path: Path) -> N
 
 def test_a_value_in_both_systems_ends_before_the_next_ones_number(tmp_path: Path) -> None:
     c = canvas(tmp_path / "a.pdf")
-    columns = ((200, "R3.9D", "11 190 mm (36'9\")"), (273, "R3.2D", "11 140 mm (36'7\")"))
     put(c, 60, 686, "Ground clearance")
-    for x, model, value in columns:
+    x = 200.0
+    for model, value in (("R3.9D", "11 190 mm (36'9\")"), ("R3.2D", "11 140 mm (36'7\")")):
         put(c, x, 700, model, bold=True)
-        put(c, x, 686, value)
+        x += put(c, x, 686, value) + 4.5
     c.save()
     assert said(extract(ASKED, [tmp_path / "a.pdf"], config="R3.2D")) == {"Ground Clearance": ("ok", 11.14)}
 
