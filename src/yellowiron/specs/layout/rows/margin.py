@@ -33,15 +33,15 @@ def without_keys(lines: Sequence[TextLine]) -> list[TextLine]:
     keys: set[TextPiece] = set()
     for column in _key_columns(lines):
         texts = [piece.bare for piece, _ in column]
+        counted = _one_by_one(texts)  # each before a label, though that has no value: "7  Track gauge" over its rows
         if (
             len(column) >= 3
             and len(set(texts)) == len(texts)
-            and sum(beside for _, beside in column) >= (0.4 if _one_by_one(texts) else 0.6) * len(column)
+            and sum(beside for _, beside in column) >= (0.4 if counted else 0.6) * len(column)
             and not all(is_unit(t) for t in texts)
             and _counts([piece for piece, _ in column if piece.bare[0].isdigit()], lines)
         ):
-            # A number has a label behind it, whether or not that has a value: "7  Track gauge" over its rows.
-            keys.update(piece for piece, beside in column if beside or piece.bare[0].isdigit())
+            keys.update(piece for piece, beside in column if beside or counted)
     again = [line.pieces[-1] for line in lines if _repeats(line)]
     if len(again) >= _FEWEST_REPEATED:
         keys.update(again)
