@@ -9,12 +9,15 @@ from pathlib import Path
 import pytest
 from specs_layouts import canvas, put, template, wanted
 
+from yellowiron.library import load_template
 from yellowiron.model.specification import Specifications
 from yellowiron.specs import extract
 from yellowiron.specs.language.numbers import read
 from yellowiron.specs.layout.statement import Statement, is_key, looks_like_value, without_key, without_last_keys
 from yellowiron.specs.machines import with_machines
+from yellowiron.specs.values.claims import claims_of
 from yellowiron.specs.values.enumerations import enumerated
+from yellowiron.specs.values.matching import match
 
 BARE = Statement(page=1, row=1, label="", text="1 m", box=(0.0, 0.0, 1.0, 1.0), quote="")
 ASKED = template(
@@ -180,3 +183,73 @@ def test_rows_that_end_in_the_number_that_they_begin_with(tmp_path: Path, ruled:
     assert found["Blade Height"] == ("ok", 3.1)
     assert found["Blade Weight"] == ("ok", 16570.0)
     assert found["Raise Time"] == ("ok", 11.0)
+
+
+def matched(*statements: Statement) -> dict[str, list[float]]:
+    asked = load_template("excavator").wanted
+    found = match(claims_of(statements, "point"), asked)
+    return {n: sorted(m.claim.quantity.si_value for m in own if not m.rest) for n, own in found.items() if own}
+
+
+def test_what_a_part_lends_its_name_to_is_not_the_machines() -> None:
+    boom = replace(BARE, label="Height", text="2,050 mm", section="Shovel Boom")
+    assert "Overall Height" not in {n for n, own in matched(boom).items() if own}
+    width = replace(BARE, label="Shoe width", text="790 mm", context=("Undercarriage",))
+    assert matched(width) == {"Shoe Width": [0.79]}
+
+
+def test_a_heading_over_one_of_two_that_are_called_the_same_does_not_choose() -> None:
+    first = replace(BARE, label="SAE J1349 Net, DIN 6271", text="285 kW", section="Engine")
+    second = replace(first, row=2, text="309 kW", section="")
+    other = replace(first, row=3, text="40 kW", section="Fan drive")
+    assert matched(first, second, other)["Net Power"] == [285e3, 309e3]
+
+
+def test_an_outlines_numbers_before_labels_that_rows_follow(tmp_path: Path) -> None:
+    c = canvas(tmp_path / "a.pdf")
+    rows = (
+        ("1", "Shipping height", "3350 mm"),
+        ("2", "Length to centers of rollers", ""),
+        ("", "  Standard undercarriage", "3610 mm"),
+        ("3", "Ground clearance", "510 mm"),
+        ("4", "Track gauge", ""),
+        ("", "  Standard undercarriage", "2590 mm"),
+        ("", "  Long undercarriage", "2590 mm"),
+    )
+    for index, row in enumerate(rows):
+        for x, text in zip((60, 72, 300), row, strict=True):
+            put(c, x + 12 * text.startswith(" "), 700 - 14 * index, text.strip())
+    c.save()
+    found = extract(load_template("excavator"), [tmp_path / "a.pdf"])
+    assert said(found)["Track Gauge"] == ("ok", 2.59) and said(found)["Ground Clearance"] == ("ok", 0.51)
+
+
+def test_a_value_in_both_systems_ends_before_the_next_ones_number(tmp_path: Path) -> None:
+    c = canvas(tmp_path / "a.pdf")
+    put(c, 60, 686, "Ground clearance")
+    x = 200.0
+    for model, value in (("R3.9D", "11 190 mm (36'9\")"), ("R3.2D", "11 140 mm (36'7\")")):
+        put(c, x, 700, model, bold=True)
+        x += put(c, x, 686, value) + 4.5
+    c.save()
+    assert said(extract(ASKED, [tmp_path / "a.pdf"], config="R3.2D")) == {"Ground Clearance": ("ok", 11.14)}
+
+
+def test_what_is_said_of_a_name_a_space_behind_it_heads_no_column(tmp_path: Path) -> None:
+    c = canvas(tmp_path / "a.pdf")
+    put(c, 60, 730, "KOMATSU", bold=True, size=14)
+    put(c, 60, 714, "Especificaciones", bold=True)
+    for index, (label, text) in enumerate((("Tipo de transmisión", "HY"), ("Peso", "15.48 t"))):
+        y = 700 - 14 * index
+        x = 72 + put(c, 72, y, label, bold=True) + 3
+        put(c, x, y, text, bold=True)
+        c.line(x - 1, y - 3, x - 1, y + 9)
+    c.save()
+    assert said(extract(load_template("forklift"), [tmp_path / "a.pdf"])) == {"Operating Weight": ("ok", 15480)}
+
+
+def test_a_parts_row_under_a_propertys_head_is_not_the_machines() -> None:
+    stick = replace(
+        BARE, label="R3.9D STICK", text="3900 mm", column=("Load Point", "Height"), section="Boom Capacities"
+    )
+    assert "Overall Height" not in matched(stick)

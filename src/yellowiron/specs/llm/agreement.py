@@ -19,9 +19,9 @@ from yellowiron.specs.llm.doubts import Doubted, alike, is_answered, reads_same
 from yellowiron.specs.llm.page_reader import Pointed
 from yellowiron.specs.llm.pointing import Spot
 from yellowiron.specs.values.claims import configured_by
+from yellowiron.specs.values.contention import Match
 from yellowiron.specs.values.cross_check import Nearby
 from yellowiron.specs.values.decision import Sheets, decide, evidence_of, missing, printed, settled
-from yellowiron.specs.values.matching import Match
 from yellowiron.specs.values.requested import check_hint, hint_for
 from yellowiron.specs.values.stated_configuration import Stated
 from yellowiron.specs.values.tolerances import DOUBTFUL, SURE

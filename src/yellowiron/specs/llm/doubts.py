@@ -18,9 +18,9 @@ from yellowiron.specs.language.vocabulary import HARMLESS, KNOWN, NEUTRAL, TELLI
 from yellowiron.specs.layout.nearest import COUNTS
 from yellowiron.specs.llm.pointing import Spot
 from yellowiron.specs.values.claims import COUNTED_TOGETHER, PRINTED_FOR_A_FORCE
+from yellowiron.specs.values.contention import Match
 from yellowiron.specs.values.cross_check import Nearby
 from yellowiron.specs.values.decision import OF_OTHERS, is_broken_off, is_measures, settled
-from yellowiron.specs.values.matching import Match
 from yellowiron.specs.values.requested import phrases, usual
 from yellowiron.specs.values.tolerances import LEAST
 

@@ -23,8 +23,9 @@ from yellowiron.specs.llm.doubts import says_in_full
 from yellowiron.specs.llm.pointing import PageText, Place, RefusedError, Spot, place_of, spot_of
 from yellowiron.specs.llm.prompts import PLACES, places_on
 from yellowiron.specs.values.claims import Claim, claims_of, phrases_in
+from yellowiron.specs.values.contention import Match
 from yellowiron.specs.values.decision import settled
-from yellowiron.specs.values.matching import Match, match, match_one, weakly
+from yellowiron.specs.values.matching import match, match_one, weakly
 from yellowiron.specs.values.requested import usual
 from yellowiron.specs.values.tolerances import LEAST
 

@@ -15,7 +15,7 @@ from yellowiron.specs.language.vocabulary import tokens
 from yellowiron.specs.layout.statement import Statement, words_beside_numbers
 from yellowiron.specs.pages.strokes import Box
 from yellowiron.specs.values.claims import Claim, configured_by, names_model, split_phrases, without_case
-from yellowiron.specs.values.matching import Match
+from yellowiron.specs.values.contention import Match
 from yellowiron.specs.values.requested import check_hint, hint_for, usual
 from yellowiron.specs.values.series import called, extremes
 from yellowiron.specs.values.stated_configuration import Stated

@@ -27,7 +27,8 @@ from yellowiron.specs.language.vocabulary import (
     tokens,
 )
 from yellowiron.specs.values.claims import Claim, names_model
-from yellowiron.specs.values.requested import phrases, usual
+from yellowiron.specs.values.contention import Match, add_twins, ends_told_apart, is_possible, without_shared_headings
+from yellowiron.specs.values.requested import phrases
 from yellowiron.specs.values.tolerances import LEAST
 
 _EXTREME = {"maximum"}
@@ -52,23 +53,6 @@ _OFTEN = 3
 """Languages that must agree before one word of another one counts as a slip."""
 _REMARK = 0.02
 """What a word costs that is left over and says nothing else: enough to prefer a value that it does speak of."""
-
-
-@dataclass(frozen=True)
-class Match:
-    """A claim that speaks of a wanted value. `score` 0…1: the share of its label that the wanted value's phrases
-    explain, less what is borrowed from headings. `rest` are its other words that may mean another property, `lost` what
-    they cost;
-    `by_label` is False where only headings or heads name the property, `by_head` True where heads are needed for it."""
-
-    wanted: Wanted
-    claim: Claim
-    score: float
-    phrase: str
-    rest: tuple[str, ...] = ()
-    lost: float = 0.0
-    by_label: bool = True
-    by_head: bool = False
 
 
 def match(claims: Sequence[Claim], wanted: Sequence[Wanted]) -> dict[str, list[Match]]:
@@ -99,7 +83,8 @@ def match(claims: Sequence[Claim], wanted: Sequence[Wanted]) -> dict[str, list[M
             # where no other label does.
             unsaid = len(kept) > 1 and (_EXTREME & set(tokens(one.wanted.name))) - said.label - said.head - said.context
             found[one.wanted.name].append(replace(one, score=one.score - _UNSAID) if unsaid else one)
-    return _ends_told_apart({name: _without_shared_headings(own) for name, own in found.items()}, wanted)
+    add_twins(found, claims)
+    return ends_told_apart({name: without_shared_headings(own) for name, own in found.items()}, wanted)
 
 
 def _by_own_name(matches: list[Match]) -> list[Match]:
@@ -114,54 +99,23 @@ def _by_own_name(matches: list[Match]) -> list[Match]:
     return [m for m, is_own in zip(matches, own, strict=True) if is_own or telling(m.phrase) not in names]
 
 
-def _without_shared_headings(matches: list[Match]) -> list[Match]:
-    """The matches without those of values that have no name but a heading which stands over other ones, too."""
-    under: dict[tuple[object, ...], set[tuple[float, ...]]] = {}
-
-    def place(one: Match) -> tuple[object, ...]:
-        statement = one.claim.statement
-        model = (statement.context, statement.label) if names_model(statement.label) else ()
-        return (statement.sheet, statement.page, statement.section, statement.column, model)
-
-    for one in matches:
-        if not one.by_label and not one.by_head:
-            under.setdefault(place(one), set()).add(one.claim.statement.box)
-    return [m for m in matches if m.by_label or m.by_head or m.claim.ranged or len(under[place(m)]) == 1]
-
-
-def _ends_told_apart(found: dict[str, list[Match]], wanted: Sequence[Wanted]) -> dict[str, list[Match]]:
-    """The matches, where a range has both of its ends asked for, and both are possible: the lower one speaks of the one
-    value, the upper one of the other, and neither leaves open what is meant."""
-    for low in (w for w in wanted if w.low_end_of in found):
-        high = next(w for w in wanted if w.name == low.low_end_of)
-        matched = {id(m.claim): m for m in found[low.name] + found[high.name] if m.claim.ranged}.values()
-        told = {
-            (id(m.claim.statement), m.claim.low): replace(
-                m, wanted=low if m.claim.low else high, claim=replace(m.claim, ranged=False)
-            )
-            for m in matched
-        }
-        both = {at for at, _ in told if all((at, end) in told and _possible(told[at, end]) for end in (True, False))}
-        for name in (low.name, high.name):
-            found[name] = [m for m in found[name] if not (m.claim.ranged and id(m.claim.statement) in both)]
-        for (at, _), one in told.items():
-            if at in both:
-                found[one.wanted.name].append(one)
-    return found
-
-
 def _of_part(matches: Sequence[Match]) -> list[Match]:
     """The matches without those of the machine where a sub-heading makes their words a part's: "Blade | Height"."""
     named = [(m, frozenset(tokens(m.phrase))) for m in matches]
     parts = [frozenset(tokens(c)) for m in matches[:1] for c in m.claim.statement.context if names_a_part(c)]
-    return [m for m, words in named if not any(words < other and other - words in parts for _, other in named)]
+    return [
+        m
+        for m, words in named
+        if words == frozenset(tokens(m.wanted.name))  # a "Shoe width" under "Undercarriage" is no undercarriage's
+        or not any(words < other and other - words in parts for _, other in named)
+    ]
 
 
 def _of_possible(matches: Sequence[Match], said: _Said) -> list[Match]:
     """The matches of values that can be so much; where one that cannot says more of the label, its further words there
     are left over: the boom's length is no machine's, though it be too short for the boom."""
-    possible = [m for m in matches if _possible(m)]
-    impossible = [m for m in matches if not _possible(m)]
+    possible = [m for m in matches if is_possible(m)]
+    impossible = [m for m in matches if not is_possible(m)]
     if not possible or not impossible:
         return list(matches)
     closest = max(impossible, key=_specific)
@@ -169,14 +123,6 @@ def _of_possible(matches: Sequence[Match], said: _Said) -> list[Match]:
         return possible
     words = set(tokens(closest.phrase)) & (said.label | said.head | said.context)
     return [replace(m, rest=m.rest or tuple(sorted(words - set(tokens(m.phrase))))) for m in possible]
-
-
-def _possible(found: Match) -> bool:
-    """Whether the value, in one of its readings, lies where the wanted value can lie."""
-    wanted, quantity = found.wanted, found.claim.quantity
-    scale = quantity.si_value / quantity.value if quantity.value else 1.0
-    readings = [quantity.si_value, *([quantity.other * scale] if quantity.other is not None else [])]
-    return any(usual(wanted, reading) for reading in readings)
 
 
 def _specific(found: Match) -> int:
@@ -328,9 +274,13 @@ def _match(asked_for: _Asked, claim: Claim, said: _Said) -> Match | None:
         if headed or words & lent:  # it may name another one's part: "lift arm cylinder", "Total weight" of "Buckets"
             named = words - explained - (frozenset() if headed else asked_for.words)
             rest |= {t for t in named if _is_others(t, asked_for, explained | words, claim, said)}
-    if {t for t in label if len(t) > 1} <= _MEASURES:  # the width of an "Upper protection screen" is no structure's
+    bare = {t for t in label if len(t) > 1}
+    if bare <= _MEASURES:  # the width of an "Upper protection screen" is no structure's
         for words in (*said.contexts, section):
             rest |= {t for t in words - explained - _SAYS_NOTHING if words & lent and t.isalpha() and t not in KNOWN}
+    if _WHOLE & asked_for.name:  # a "Boom"'s own "Height" is not the machine's over its boom
+        parts = (lent if bare and bare <= _MEASURES else set()) | (label if headed else set())
+        rest |= {t for t in parts - asked_for.name if names_a_part(t)}
     worded = frozenset[str]().union(*(words for words in said.naming if not any(map(_is_number, words))))
     if ((label | context | section | worded) - explained) & REVERSING:  # the head "VS 135" is a model
         return None
@@ -364,7 +314,8 @@ def _explanation(asked_for: _Asked, said: _Said, *, supported: bool) -> _Explana
     optional = (_EXTREME if wanted.dimension in _RATED else set()) - everything
     # What names the model of the column, too, is the page's title.
     title = bool((section & head) - KNOWN - NEUTRAL)
-    headed = bool(wanted.sections) and not section <= GENERAL and not title and wanted.dimension != "time"
+    nearest = said.contexts[-1] if said.contexts else section  # a title over "Specifications" is the machine's
+    headed = bool(wanted.sections) and not nearest <= GENERAL and not title and wanted.dimension != "time"
     vague = VAGUE if headed else frozenset[str]()
     # One word alone is little: beside it only what no other value's words have passes for a remark.
     remarks = HARMLESS - asked_for.others.keys()

@@ -7,7 +7,7 @@ from collections.abc import Callable, Sequence
 from itertools import pairwise
 
 from yellowiron.specs.language.vocabulary import tokens
-from yellowiron.specs.values.matching import Match
+from yellowiron.specs.values.contention import Match
 
 _ORDINAL = re.compile(r"(\d{1,2})(?:st|nd|rd|th|er|era|ere|eme|da|ra|ta|to|do|o|a|e)?")
 _LEAST_COUNTED = 3

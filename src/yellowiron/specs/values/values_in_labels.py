@@ -10,8 +10,8 @@ from yellowiron.model.template import Wanted
 from yellowiron.specs.language.decimal_style import DecimalStyle
 from yellowiron.specs.language.numbers import read
 from yellowiron.specs.language.quantities import Quantity
+from yellowiron.specs.values.contention import Match
 from yellowiron.specs.values.decision import Sheets, evidence_of, missing
-from yellowiron.specs.values.matching import Match
 from yellowiron.specs.values.requested import usual
 from yellowiron.support.units import SI_UNIT
 

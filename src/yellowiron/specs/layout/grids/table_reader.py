@@ -9,7 +9,7 @@ from itertools import pairwise
 
 from yellowiron.specs.language.vocabulary import CIRCUITS, tokens
 from yellowiron.specs.layout.grids.table_grid import Cell, TableGrid
-from yellowiron.specs.layout.rows.cells import is_circumstance, marked_by_footnote
+from yellowiron.specs.layout.rows.cells import marked_by_footnote
 from yellowiron.specs.layout.rows.headings import in_capitals, names_models, names_no_columns
 from yellowiron.specs.layout.rows.prose import paragraphs_of, read_paragraph
 from yellowiron.specs.layout.statement import (
@@ -162,8 +162,6 @@ def _heads_none(grid: TableGrid, filled: Sequence[Cell], heads: Sequence[int], *
 def _values_of(filled: Sequence[Cell]) -> list[Cell]:
     """A row's cells of values; all of them where each has a label inside."""
     values = [c for c in filled if looks_like_value(c.text) or (len(c.lines) == 1 and lists_items(c.text))]
-    if len(values) == 2 and values[0] is not filled[-1] and all(is_circumstance(p) for p in values[0].pieces):
-        values = values[1:]
     if not values and all(split_inline(c.text)[0] for c in filled):
         return list(filled)
     if not values and len(filled) > 1 and all(len(split_inline(c.text)[0].split()) in (1, 2) for c in filled[1:]):

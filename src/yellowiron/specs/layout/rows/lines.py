@@ -17,6 +17,8 @@ _PANEL = 60.0
 """Points; what is filled higher than this lies behind many rows, and is no heading's bar."""
 _GAP = 0.75
 """A gap wider than this times the type size parts a label from a value."""
+_NARROW = 0.45
+"""Likewise where a value ends in its other unit and a number follows: no space between words is so wide."""
 
 
 @dataclass(frozen=True)
@@ -67,7 +69,8 @@ def lines_of(words: Sequence[Word], walls: Sequence[DrawnRule] = ()) -> list[Tex
         pieces: list[list[Word]] = []
         for word in row:
             last = pieces[-1][-1] if pieces else None
-            if last is None or word.x0 - last.x1 > _GAP * max(word.size, last.size) or _walled(last, word, upright, at):
+            gap = _NARROW if last is not None and _ends_value(last, word) else _GAP
+            if last is None or word.x0 - last.x1 > gap * max(word.size, last.size) or _walled(last, word, upright, at):
                 pieces.append([word])
             else:
                 pieces[-1].append(word)
@@ -75,6 +78,11 @@ def lines_of(words: Sequence[Word], walls: Sequence[DrawnRule] = ()) -> list[Tex
         # a colon in a column of its own parts labels from values, and is neither
         lines.append(TextLine(tuple(p for p in found if p.text not in (":", "：")) or found))
     return lines
+
+
+def _ends_value(last: Word, word: Word) -> bool:
+    """Whether a value is complete in both systems, and a number begins: "(36'9\")   11 140 mm"."""
+    return last.text.endswith(")") and any(map(str.isdigit, last.text)) and word.text[0].isdigit()
 
 
 def _walled(a: Word, b: Word, walls: Sequence[DrawnRule], at: Sequence[float]) -> bool:

@@ -33,14 +33,15 @@ def without_keys(lines: Sequence[TextLine]) -> list[TextLine]:
     keys: set[TextPiece] = set()
     for column in _key_columns(lines):
         texts = [piece.bare for piece, _ in column]
+        counted = _one_by_one(texts)  # each before a label, though that has no value: "7  Track gauge" over its rows
         if (
             len(column) >= 3
             and len(set(texts)) == len(texts)
-            and sum(beside for _, beside in column) >= 0.6 * len(column)
+            and sum(beside for _, beside in column) >= (0.4 if counted else 0.6) * len(column)
             and not all(is_unit(t) for t in texts)
             and _counts([piece for piece, _ in column if piece.bare[0].isdigit()], lines)
         ):
-            keys.update(piece for piece, beside in column if beside)
+            keys.update(piece for piece, beside in column if beside or counted)
     again = [line.pieces[-1] for line in lines if _repeats(line)]
     if len(again) >= _FEWEST_REPEATED:
         keys.update(again)
@@ -88,6 +89,10 @@ def _counts(numbers: Sequence[TextPiece], lines: Sequence[TextLine]) -> bool:
     first = {line.pieces[0] for line in lines}
     if all(piece in first for piece in numbers):
         return ascending(texts)
+    return _one_by_one(texts)
+
+
+def _one_by_one(texts: Sequence[str]) -> bool:
     counted = [int(t) if t.isdecimal() else 0 for t in (text.strip("()[].:") for text in texts)]
     return all(b == a + 1 for a, b in pairwise(counted))
 

@@ -88,8 +88,6 @@ def _in_two_systems(lines: Sequence[TextLine]) -> bool:
     both = [cells_of((line,)) for line in lines]
     if len(lines) != 2 or any(len(cells) != 1 or not cells[0].label for cells in both):
         return False
-    if abs(lines[0].pieces[0].x0 - lines[1].pieces[0].x0) > 1.5 * lines[0].pieces[0].size:
-        return False
     values = [read(" ".join(p.text for p in c.values), unit=c.unit or unit_in_label(c.label[-1].bare)[1])
               for cells in both for c in cells]  # fmt: skip
     if any(len(v) != 1 or len(v[0].numbers) != 1 for v in values):

@@ -106,6 +106,8 @@ def _parted(piece: TextPiece) -> list[TextPiece]:
 
 def _are_column_heads(texts: Sequence[TextPiece], labels_end: float, state: ReaderState) -> bool:
     """Whether a line of words names columns: units alone, several words over the values, or emphasis."""
+    if len(texts) == 2 and texts[1].x0 - texts[0].x1 < 0.5 * texts[0].size:
+        return False  # "Transmission|HY": a name and what is said of it, parted by no more than a space
     over_values = [p for p in texts if p.x0 >= labels_end]
     bold = all(p.bold for p in texts)
     if all(is_unit(p.bare) for p in texts) or len(over_values) >= 2:
