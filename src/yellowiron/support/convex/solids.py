@@ -86,15 +86,17 @@ def convex(points: Floats) -> Convex:
 
 
 def _thick(solid: Convex) -> Convex:
-    """It with as much more thickness as engines ask for, half on either side."""
-    breadths = np.ptp(solid.corners @ solid.planes[:, :3].T, axis=0)
-    thinnest = int(np.argmin(breadths))
-    radius, half = _ball_and_box(solid)
-    lift = max(0.5 * (THINNEST - float(breadths[thinnest])), half / OBLONG - radius)
-    if lift <= 0.0:
-        return solid
-    by = lift * solid.planes[thinnest, :3]
-    return _solid(np.concatenate([solid.corners + by, solid.corners - by]))
+    """It with as much more thickness as engines ask for, half on either side: of a rail in two directions."""
+    for _ in range(3):
+        breadths = np.ptp(solid.corners @ solid.planes[:, :3].T, axis=0)
+        thinnest = int(np.argmin(breadths))
+        radius, half = _ball_and_box(solid)
+        lift = max(0.5 * (THINNEST - float(breadths[thinnest])), half / OBLONG - radius)
+        if lift <= 1e-9:
+            break
+        by = lift * solid.planes[thinnest, :3]
+        solid = _solid(np.concatenate([solid.corners + by, solid.corners - by]))
+    return solid
 
 
 def _ball_and_box(solid: Convex) -> tuple[float, float]:
