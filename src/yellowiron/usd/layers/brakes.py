@@ -47,13 +47,13 @@ def write_pads(layer: Sdf.Layer, plan: Plan) -> None:
 
     Colliders that are there in that variant alone: nobody counts or exports them who has the brakes released.
     """
-    if not has_brakes(plan.mechanism):
+    if not has_brakes(plan.mechanism) or not any(body.pads for body in plan.mechanism.bodies):
         return
+    declare_variants(over(layer, plan.root), "Brakes", BRAKES)
     root = f"{plan.root}{{Brakes=set}}"
     for body in plan.mechanism.bodies:
         below = plan.body_paths[body.name][len(plan.root) + 1 :]
         for pad in body.pads:
-            declare_variants(over(layer, plan.root), "Brakes", BRAKES)
             collider_scope(layer, f"{root}{below}")
             path = shape_path(f"{root}{below}", pad)
             primitive = Primitive.of(pad)
