@@ -8,12 +8,13 @@ from pathlib import Path
 import mujoco
 import numpy as np
 import pytest
-from pxr import Usd, UsdGeom, UsdPhysics, UsdShade
+from pxr import Sdf, Usd, UsdGeom, UsdPhysics, UsdShade
 
 from kit.machines.crawler import crawler
 from kit.machines.solids import box, lathe
 from kit.machines.tracked_template import write_tracked_template
 from yellowiron import kinematics, usd
+from yellowiron.checks import check
 from yellowiron.exporters import export_mjcf, read_geometry
 from yellowiron.library import load_template
 from yellowiron.mechanism import build_mechanism
@@ -107,6 +108,24 @@ def test_tracks_are_pads_while_the_brakes_are_set(machines: dict[str, tuple[Mech
         assert box.GetMin()[2] == pytest.approx(0.0, abs=1e-6)
         assert (box.GetMax()[0], box.GetMin()[0]) == pytest.approx([w.center[0] for w in wheels], abs=1e-6)
         assert 0.5 * (box.GetMin()[1] + box.GetMax()[1]) == pytest.approx(wheels[0].center[1], abs=1e-6)
+
+
+def test_a_check_knows_set_brakes_for_what_they_are(
+    machines: dict[str, tuple[Mechanism, Path]], tmp_path: Path
+) -> None:
+    found = {}
+    for brakes, removed in (("released", ()), ("set", ()), ("released", ("Sphere",))):
+        stage = Usd.Stage.CreateNew(str(tmp_path / f"{brakes}{len(removed)}.usda"))
+        stage.GetRootLayer().TransferContent(Usd.Stage.Open(str(machines["belt"][1] / "scene.usda")).GetRootLayer())
+        machine = next(p for p in stage.Traverse() if p.GetVariantSets().HasVariantSet("Brakes"))
+        machine.GetReferences().SetReferences([Sdf.Reference(str(machines["belt"][1] / "crawler.usda"))])
+        machine.GetVariantSet("Brakes").SetVariantSelection(brakes)
+        for prim in [p for p in stage.Traverse() if p.GetTypeName() in removed and p.HasAPI(UsdPhysics.CollisionAPI)]:
+            UsdPhysics.CollisionAPI(prim).CreateCollisionEnabledAttr(False)
+        stage.Save()
+        codes = {finding.code for finding in check(stage.GetRootLayer().realPath)}
+        found[brakes, bool(removed)] = codes & {"CHK100", "CHK124"}
+    assert found == {("released", False): set(), ("set", False): set(), ("released", True): {"CHK100"}}
 
 
 def test_exports_have_the_brakes_released_whatever_the_file_selects(

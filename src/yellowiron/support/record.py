@@ -18,6 +18,9 @@ few and simple ones, or none."""
 COLLIDING = DETAILS[:2]
 """Those that have colliders."""
 
+BRAKE_GIVES = 0.002
+"""Radians (metres of a slide) by which a brake that is a spring gives before it slips."""
+
 CONE = "elliptic"
 IMPRATIO = 1000.0
 """Friction is so many times as hard as what holds bodies apart, else what stands with its brakes set creeps downhill:

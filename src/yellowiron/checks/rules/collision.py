@@ -6,7 +6,7 @@ import numpy as np
 
 from yellowiron.checks.islands import Island
 from yellowiron.checks.rule import Remarks, rule
-from yellowiron.checks.values import StageBody, extent, leaf
+from yellowiron.checks.values import StageBody, StageCollider, extent, leaf
 from yellowiron.checks.view import View
 
 _TOKENS = (
@@ -31,15 +31,28 @@ _FAR = 0.5
     "Give it one, if anything shall touch it: without it everything falls through.",
 )
 def no_collider(view: View) -> Remarks:
-    """A body has no collider, nor one that it is welded to; unless it is not drawn either and stands between two."""
+    """A body has no collider, nor one that it is welded to; unless it is not drawn either and stands between two, or on
+    one whose pads stand for it while the brakes are set."""
     welds = [joint.bodies for joint in view.joints if joint.enabled and joint.type == "fixed"]
     solid = {path for path, body in view.bodies.items() if body.has_collider}
     solid |= {path for weld in welds if solid.intersection(weld) for path in weld}
     between = {joint.bodies[0] for joint in view.joints} & {joint.bodies[1] for joint in view.joints}
+    padded = {c.body for c in view.colliders if c.body in view.bodies and _is_pad(c, view.bodies[c.body])}
+    solid |= {
+        path
+        for joint in view.joints
+        for path in joint.bodies
+        if padded.intersection(joint.bodies) and path in view.bodies and view.bodies[path].drawn is None
+    }
     for body in view.bodies.values():
         link = body.bounds is None and body.path in between
         if body.enabled and body.path not in solid and body.mass and not link:
             yield body.path, "No collider is at or under it."
+
+
+def _is_pad(collider: StageCollider, body: StageBody) -> bool:
+    """Whether a collider is one of those with which its body stands while the brakes are set, by the record."""
+    return f'"{collider.path.rpartition("/")[2]}"' in str(body.record.get("pads", ""))
 
 
 @rule(

@@ -13,10 +13,11 @@ from yellowiron.checks.islands import Island
 from yellowiron.checks.loops import KINDS
 from yellowiron.checks.rule import Remarks, rule
 from yellowiron.checks.tolerances import FRAMES_APART
-from yellowiron.checks.values import WORLD, StageJoint, direction
+from yellowiron.checks.values import WORLD, StageDrive, StageJoint, direction
 from yellowiron.checks.view import View
 from yellowiron.model.geometry import Floats
 from yellowiron.model.template import Follows, by_first_leader
+from yellowiron.support.record import BRAKE_GIVES
 from yellowiron.support.text import with_article
 from yellowiron.support.vectors import angle_between
 
@@ -185,6 +186,8 @@ def edited_drive(view: View) -> Remarks:
             )
         elif isinstance(built, dict):
             drive = joint.drives[0]
+            if _braked(drive, _number(built.get("brake"))):
+                continue
             pairs = {
                 "stiffness": (drive.stiffness, built.get("stiffness") if built.get("kind") == "position" else 0.0),
                 "damping": (drive.damping, built.get("damping")),
@@ -194,6 +197,11 @@ def edited_drive(view: View) -> Remarks:
                 given = _number(before)
                 if given is not None and not _same(value, given):
                     yield joint.path, f"Its {name} is {value:.5g}, and was built as {given:.5g} (SI)."
+
+
+def _braked(drive: StageDrive, brake: float | None) -> bool:
+    """Whether a drive is what the variant of set brakes makes of it: a spring as strong as its brake."""
+    return bool(brake) and _same(drive.max_force, brake) and _same(drive.stiffness, (brake or 0.0) / BRAKE_GIVES)
 
 
 def _strongest(built: dict[str, Any]) -> Any:

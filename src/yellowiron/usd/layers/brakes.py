@@ -10,6 +10,7 @@ import numpy as np
 from pxr import Sdf, Vt
 
 from yellowiron.model.mechanism import Body, Mechanism
+from yellowiron.support.record import BRAKE_GIVES
 from yellowiron.usd.authoring.stage import Types, apply_schemas, declare_variants, over, set_attribute
 from yellowiron.usd.layers.base import collider_scope, shape_path, write_primitive
 from yellowiron.usd.layers.drives import INSTANCES, per_usd_unit
@@ -20,8 +21,6 @@ from yellowiron.usd.planning.primitives import Primitive
 
 BRAKES = ("released", "set")
 """Variants of the set `Brakes`, the first of them the one that a machine file selects."""
-GIVES = 0.002
-"""Radians (metres of a slide) by which a brake gives before it slips."""
 
 
 def has_brakes(mechanism: Mechanism) -> bool:
@@ -89,6 +88,6 @@ def _physx(spec: Sdf.PrimSpec, joint_type: str, brake: float) -> None:
     apply_schemas(spec, f"PhysxJointAxisAPI:{instance}")
     for kind in ("static", "dynamic"):
         set_attribute(spec, f"physxJointAxis:{instance}:{kind}FrictionEffort", Types.Float, brake)
-    values = {"stiffness": brake / GIVES * per_usd_unit(joint_type), "maxForce": brake}
+    values = {"stiffness": brake / BRAKE_GIVES * per_usd_unit(joint_type), "maxForce": brake}
     for name, value in values.items():
         set_attribute(spec, f"drive:{instance}:physics:{name}", Types.Float, float(value))
