@@ -31,7 +31,7 @@ _FAR = 0.5
     "Give it one, if anything shall touch it: without it everything falls through.",
 )
 def no_collider(view: View) -> Remarks:
-    """A body has no collider, nor one that it is welded to; unless it is not drawn between two, or pads stand for it."""
+    """A body has no collider, nor one that it is welded to; unless it is undrawn between two, or pads stand for it."""
     welds = [joint.bodies for joint in view.joints if joint.enabled and joint.type == "fixed"]
     solid = {path for path, body in view.bodies.items() if body.has_collider}
     solid |= {path for weld in welds if solid.intersection(weld) for path in weld}
