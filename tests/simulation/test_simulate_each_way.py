@@ -1,4 +1,4 @@
-"""Push and pull of a cylinder in engines whose drives know one limit: with `ForceLimits` each way its own."""
+"""Forces and speeds of a cylinder in engines whose drives know one limit: with `EachWay` each way its own."""
 
 from __future__ import annotations
 
@@ -15,7 +15,7 @@ from plain_engines import world_with
 from pxr import Usd, UsdPhysics
 
 from kit.machines.simple_machines import write
-from yellowiron.forces import ForceLimits
+from yellowiron.each_way import CATCHING_UP, EachWay
 from yellowiron.model.mechanism import Actuator, ActuatorJoint, Body, Drive, Joint, Mechanism
 from yellowiron.usd import read_mechanism
 
@@ -43,34 +43,44 @@ def cylinder() -> Mechanism:
 
 
 def test_the_limit_is_that_of_the_way_it_pushes() -> None:
-    limits = ForceLimits.of(cylinder(), ["free", SLIDE, f"_World_machine_joints_{SLIDE}"])
+    limits = EachWay.of(cylinder(), ["free", SLIDE, f"_World_machine_joints_{SLIDE}"])
     assert limits.ranges.tolist() == [[-np.inf, np.inf], [-PULL, PUSH], [-PULL, PUSH]]
     rest = np.zeros(3)
-    two = limits.now([[0.0, 0.1, -0.1], [0.0, -0.1, 0.1]], rest, rest)
+    two = limits.forces_now([[0.0, 0.1, -0.1], [0.0, -0.1, 0.1]], rest, rest)
     assert two.tolist() == [[np.inf, PUSH, PULL], [np.inf, PULL, PUSH]]
     # Its damping may pull where its spring pushes.
-    assert limits.now(rest + 0.01, rest, rest + 10.0)[1] == PULL
+    assert limits.forces_now(rest + 0.01, rest, rest + 10.0)[1] == PULL
 
 
 def test_a_motor_is_told_speeds() -> None:
     motor = replace(cylinder().joints[0], drive=Drive("velocity", 0.0, 1e3, 300.0, 2.0, reverse_force=200.0))
-    limits = ForceLimits.of(replace(cylinder(), joints=(motor,)), [SLIDE])
-    assert limits.now([1.0], [9.0], [2.0]).tolist() == [200.0]
-    assert limits.now([1.0], [-9.0], [0.0]).tolist() == [300.0]
+    limits = EachWay.of(replace(cylinder(), joints=(motor,)), [SLIDE])
+    assert limits.forces_now([1.0], [9.0], [2.0]).tolist() == [200.0]
+    assert limits.forces_now([1.0], [-9.0], [0.0]).tolist() == [300.0]
+    assert limits.speeds_now([-1.0], [-9.0]).tolist() == [CATCHING_UP * 2.0]
+
+
+def test_the_speed_is_that_of_the_way_to_the_target() -> None:
+    drive = Drive("position", 2e5, 1e3, PUSH, 0.3, reverse_velocity=0.5)
+    limits = EachWay.of(replace(cylinder(), joints=(replace(cylinder().joints[0], drive=drive),)), [SLIDE, "free"])
+    assert limits.speeds_now([[0.1, 0.0], [-0.1, 0.0]], [0.0, 0.0]).tolist() == [
+        [CATCHING_UP * 0.3, np.inf],
+        [CATCHING_UP * 0.5, np.inf],
+    ]
 
 
 @pytest.mark.parametrize("engine", ["physx", pytest.param("newton", marks=pytest.mark.slow)])
 def test_an_engine_pushes_and_pulls_as_the_cylinder_does(tmp_path: Path, engine: str) -> None:
     need(engine)
     file = write(tmp_path, cylinder())
-    limits = ForceLimits.of(read_mechanism(file), [SLIDE])
+    limits = EachWay.of(read_mechanism(file), [SLIDE])
     run = {"physx": in_physx, "newton": in_newton}[engine]
     for target, alone, told in ((AHEAD, PUSH, PUSH), (-AHEAD, -PUSH, -PULL)):
         for given, expected in ((None, alone), (limits, told)):
             assert MASS * run(file, target, given) == pytest.approx(expected, rel=0.02)
 
 
-def in_physx(file: Path, target: float, limits: ForceLimits | None) -> float:
+def in_physx(file: Path, target: float, limits: EachWay | None) -> float:
     """Acceleration (m/s²) over twelve steps from rest."""
     import ovphysx
     import ovstage
@@ -105,7 +115,7 @@ def in_physx(file: Path, target: float, limits: ForceLimits | None) -> float:
 
 
 def _pushed(
-    bound: dict[str, object], step: Callable[[], None], seconds: float, target: float, limits: ForceLimits | None
+    bound: dict[str, object], step: Callable[[], None], seconds: float, target: float, limits: EachWay | None
 ) -> float:
     """In a function of its own, since PhysX cannot go while somebody holds what was read."""
     rows = {kind: np.zeros(binding.shape, np.float32) for kind, binding in bound.items()}  # type: ignore[attr-defined]
@@ -117,13 +127,13 @@ def _pushed(
             bound[kind].read(rows[kind])  # type: ignore[attr-defined]
         speeds.append(float(rows["VELOCITY"][0, 0]))
         if limits is not None:
-            now = limits.now(rows["POSITION_TARGET"], rows["POSITION"], rows["VELOCITY"])
+            now = limits.forces_now(rows["POSITION_TARGET"], rows["POSITION"], rows["VELOCITY"])
             bound["MAX_FORCE"].write(now.astype(np.float32))  # type: ignore[attr-defined]
         step()
     return (speeds[-1] - speeds[0]) / (11 * seconds)
 
 
-def in_newton(file: Path, target: float, limits: ForceLimits | None) -> float:
+def in_newton(file: Path, target: float, limits: EachWay | None) -> float:
     """Acceleration (m/s²) over twelve steps from rest."""
     import newton
     import warp
