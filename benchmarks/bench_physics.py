@@ -22,6 +22,7 @@ import mujoco
 import numpy as np
 
 from yellowiron.hydraulics import Hydraulics
+from yellowiron.kinematics.strength import rated_load
 from yellowiron.model.mechanism import Mechanism
 from yellowiron.usd import read_mechanism
 
@@ -75,6 +76,9 @@ def bench(file: Path, folder: Path) -> None:
     print(f"  longest stable step: {drawn:.2f} times the file's as drawn, {least:.2f} in the worst of {poses} poses")
     for label, oil in (("targets at the strokes' ends", None), ("levers, through the oil", Hydraulics(mechanism))):
         print(f"  all cylinders at once, {label}: {1e-3 * power(scene, mechanism, oil):.0f} kW at most")
+    sunk = sinking(scene, mechanism)
+    if sunk is not None:
+        print(f"  rated load, a minute: the cylinder that gives most goes by {1e3 * sunk:.4f} mm")
     released, held = (creep(scene, brakes=brakes) for brakes in (False, True))
     for to, detail in (("mjcf", "full"), ("mjcf", "light"), ("mjcf-tendons", "light")):
         place = folder.with_name(f"{folder.name}.{to}.{detail}")
@@ -87,7 +91,7 @@ def bench(file: Path, folder: Path) -> None:
     print(f"  on 20 degrees: {1e3 * released:.1f} mm/s with its brakes released, {1e3 * held:.2f} with them set")
 
 
-def load(scene: Path) -> tuple[mujoco.MjModel, mujoco.MjData]:
+def load_scene(scene: Path) -> tuple[mujoco.MjModel, mujoco.MjData]:
     model = mujoco.MjModel.from_xml_path(str(scene))
     data = mujoco.MjData(model)
     mujoco.mj_resetDataKeyframe(model, data, 0)
@@ -96,7 +100,7 @@ def load(scene: Path) -> tuple[mujoco.MjModel, mujoco.MjData]:
 
 def cylinders(scene: Path) -> Iterator[tuple[str, str]]:
     """Every control of a slide, and that slide."""
-    model, _ = load(scene)
+    model, _ = load_scene(scene)
     for number in range(model.nu):
         name, joint = model.actuator(number).name, int(model.actuator_trnid[number, 0])
         if not name.endswith(".damping") and model.jnt_type[joint] == mujoco.mjtJoint.mjJNT_SLIDE:
@@ -117,7 +121,7 @@ def end_of(model: mujoco.MjModel, number: int, sign: float, way: int) -> float:
 
 def fastest(scene: Path, name: str, way: int) -> float:
     """The greatest speed (m/s) after a step from rest to the end of the stroke, on the ground."""
-    model, data = load(scene)
+    model, data = load_scene(scene)
     number, position, velocity, sign = address(model, name)
     mujoco.mj_step(model, data, 1500)
     data.ctrl[number] = end = end_of(model, number, sign, way)
@@ -132,7 +136,7 @@ def fastest(scene: Path, name: str, way: int) -> float:
 
 def stalled(scene: Path, name: str, way: int) -> float:
     """The force (N) against a wall, the target at the end of the stroke."""
-    model, data = load(scene)
+    model, data = load_scene(scene)
     number, _, velocity, sign = address(model, name)
     model.dof_armature[velocity] = WALL
     data.ctrl[number] = end_of(model, number, sign, way)
@@ -142,7 +146,7 @@ def stalled(scene: Path, name: str, way: int) -> float:
 
 def lag(scene: Path, name: str) -> float:
     """Seconds by which a target is followed that moves at a quarter of the slower rated speed, after half a second."""
-    model, data = load(scene)
+    model, data = load_scene(scene)
     number, position, _, sign = address(model, name)
     damper = next((n for n in range(model.nu) if model.actuator(n).name == f"{name}.damping"), None)
     if damper is None:
@@ -164,7 +168,7 @@ def margin(scene: Path) -> tuple[float, float, int]:
     Stable is a step whose derivative (`mjd_transitionFD`) has no eigenvalue beyond −1, where one that is too long for a
     spring or a damper takes it; what falls over grows by another. Contacts and limits, which have no derivative where
     they begin, are off. A pose is one that the drives reach in two seconds, told places between their ends."""
-    model, data = load(scene)
+    model, data = load_scene(scene)
     model.opt.disableflags |= int(mujoco.mjtDisableBit.mjDSBL_CONTACT)
     model.opt.gravity[:] = 0.0
     drawn = _longest(model, data)
@@ -200,7 +204,7 @@ def _longest(model: mujoco.MjModel, seen: mujoco.MjData) -> float:
 
 def pace(scene: Path) -> tuple[int, int, float]:
     """Colliders of the machine, its degrees of freedom, and steps a CPU second on the ground: the best of four runs."""
-    model, data = load(scene)
+    model, data = load_scene(scene)
     mujoco.mj_step(model, data, 1000)
     best = 0.0
     for _ in range(4):
@@ -212,7 +216,7 @@ def pace(scene: Path) -> tuple[int, int, float]:
 
 def power(scene: Path, mechanism: Mechanism, oil: Hydraulics | None) -> float:
     """The most (W) that all cylinders do at once, to one end of their strokes and to the other."""
-    model, data = load(scene)
+    model, data = load_scene(scene)
     mujoco.mj_step(model, data, 1500)
     circuits = Hydraulics(mechanism).circuits
     places = {c.slide: address(model, name) for name, c in circuits.items()}
@@ -234,9 +238,31 @@ def power(scene: Path, mechanism: Mechanism, oil: Hydraulics | None) -> float:
     return most
 
 
+def sinking(scene: Path, mechanism: Mechanism) -> float | None:
+    """The farthest (m) that a cylinder goes in a minute under the rated load, on the ground, after ten seconds; None
+    for a machine without one."""
+    load = rated_load(mechanism)
+    if load is None:
+        return None
+    site, mass = load
+    model, data = load_scene(scene)
+    body = model.body(site.body).id
+    place = np.array(site.position) - np.array(mechanism.body(site.body).origin)
+    joints = [int(model.joint(slide).qposadr[0]) for _, slide in cylinders(scene)]
+    seen = []
+    for seconds in (10.0, 60.0):
+        for _ in range(round(seconds / model.opt.timestep)):
+            force = np.array([0.0, 0.0, -9.81 * mass])
+            arm = data.xpos[body] + data.xmat[body].reshape(3, 3) @ place - data.xipos[body]
+            data.xfrc_applied[body] = np.concatenate([force, np.cross(arm, force)])
+            mujoco.mj_step(model, data)
+        seen.append(data.qpos[joints].copy())
+    return float(np.abs(seen[1] - seen[0]).max())
+
+
 def creep(scene: Path, *, brakes: bool) -> float:
     """How fast (m/s) the root moves on the slope, between two and seven seconds."""
-    model, data = load(scene)
+    model, data = load_scene(scene)
     model.opt.gravity[:] = 9.81 * np.array([math.sin(SLOPE), 0.0, -math.cos(SLOPE)])
     if brakes:
         for number in range(model.nnumeric):
