@@ -15,7 +15,7 @@ import subprocess
 import sys
 import tempfile
 import time
-from collections.abc import Iterator
+from collections.abc import Callable, Iterator
 from pathlib import Path
 
 import mujoco
@@ -35,7 +35,12 @@ WALL = 1e12
 
 
 def main() -> None:
-    parser = argparse.ArgumentParser(description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter)
+    over_files(__doc__, bench)
+
+
+def over_files(about: str | None, bench: Callable[[Path, Path], None]) -> None:
+    """Calls `bench` with every file of the command line, or with both examples, built, and a folder for its MJCF."""
+    parser = argparse.ArgumentParser(description=about, formatter_class=argparse.RawDescriptionHelpFormatter)
     parser.add_argument("files", nargs="*", type=Path)
     files = parser.parse_args().files
     with tempfile.TemporaryDirectory() as folder:

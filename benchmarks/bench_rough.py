@@ -11,11 +11,9 @@ Printed for each place: how far apart the two come to rest, and which bodies bea
 
 from __future__ import annotations
 
-import argparse
 import math
 import subprocess
 import sys
-import tempfile
 from collections.abc import Iterable
 from pathlib import Path
 
@@ -23,7 +21,7 @@ import mujoco
 import numpy as np
 from pxr import Usd
 
-from bench_physics import EXAMPLES, built
+from bench_physics import over_files
 
 PLACES = 8
 SIDE, HIGH, CELL = 24.0, 0.3, 0.1
@@ -39,12 +37,7 @@ BEARS = 0.01
 
 
 def main() -> None:
-    parser = argparse.ArgumentParser(description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter)
-    parser.add_argument("files", nargs="*", type=Path)
-    files = parser.parse_args().files
-    with tempfile.TemporaryDirectory() as folder:
-        for file in files or [built(name, Path(folder)) for name in EXAMPLES]:
-            bench(file, Path(folder, f"{file.stem}.mjcf"))
+    over_files(__doc__, bench)
 
 
 def bench(file: Path, folder: Path) -> None:

@@ -19,9 +19,7 @@ from numpy.typing import ArrayLike
 
 from yellowiron.model.geometry import Floats
 from yellowiron.model.mechanism import Mechanism
-
-CATCHING_UP = 1.05
-"""Of its rated speed: so fast may go what follows a target that moves at it."""
+from yellowiron.support.record import CATCHING_UP
 
 
 @dataclass(frozen=True, eq=False)
@@ -38,7 +36,7 @@ class EachWay:
     @classmethod
     def of(cls, mechanism: Mechanism, coordinates: Sequence[str]) -> EachWay:
         """Of coordinates by their joints' names, or by names that end in them, as Newton's and MuJoCo's do."""
-        drives = {j.name: j.drive for j in mechanism.joints if j.drive is not None and not j.cut}
+        drives = {j.name: None if j.cut else j.drive for j in mechanism.joints}
         longest = sorted(drives, key=len, reverse=True)
         found = [drives.get(next((name for name in longest if each.endswith(name)), "")) for each in coordinates]
         unlimited = (np.inf, np.inf)
@@ -65,10 +63,12 @@ class EachWay:
         return np.asarray(np.where(force < 0.0, self.forces[:, 0], self.forces[:, 1]))
 
     def speeds_now(self, targets: ArrayLike, positions: ArrayLike) -> Floats:
-        """(…, n) the largest speed of each drive towards its target, and a little to catch up by."""
+        """(…, n) the largest speed of each drive towards its target, m/s or rad/s; of position drives a little more, to
+        catch up by, as files have it."""
         wanted, at = (np.asarray(v, dtype=np.float64) for v in (targets, positions))
         backwards = np.where(self._holds, wanted - at, wanted) < 0.0
-        return np.asarray(CATCHING_UP * np.where(backwards, self.speeds[:, 0], self.speeds[:, 1]))
+        spare = np.where(self._holds, CATCHING_UP, 1.0)
+        return np.asarray(spare * np.where(backwards, self.speeds[:, 0], self.speeds[:, 1]))
 
     @property
     def _holds(self) -> np.ndarray:

@@ -15,8 +15,9 @@ from plain_engines import world_with
 from pxr import Usd, UsdPhysics
 
 from kit.machines.simple_machines import write
-from yellowiron.each_way import CATCHING_UP, EachWay
+from yellowiron.each_way import EachWay
 from yellowiron.model.mechanism import Actuator, ActuatorJoint, Body, Drive, Joint, Mechanism
+from yellowiron.support.record import CATCHING_UP
 from yellowiron.usd import read_mechanism
 
 PUSH, PULL, MASS, SLIDE = 8000.0, 5000.0, 400.0, "barrel2rod"
@@ -52,12 +53,19 @@ def test_the_limit_is_that_of_the_way_it_pushes() -> None:
     assert limits.forces_now(rest + 0.01, rest, rest + 10.0)[1] == PULL
 
 
+def test_a_coordinate_is_the_joint_whose_whole_name_it_ends_in() -> None:
+    """A free joint whose name ends as a driven one's is not that one."""
+    held = replace(cylinder().joints[0], name=f"other_{SLIDE}", drive=None)
+    limits = EachWay.of(replace(cylinder(), joints=(*cylinder().joints, held)), [f"/joints/other_{SLIDE}", SLIDE])
+    assert limits.forces.tolist() == [[np.inf, np.inf], [PULL, PUSH]]
+
+
 def test_a_motor_is_told_speeds() -> None:
     motor = replace(cylinder().joints[0], drive=Drive("velocity", 0.0, 1e3, 300.0, 2.0, reverse_force=200.0))
     limits = EachWay.of(replace(cylinder(), joints=(motor,)), [SLIDE])
     assert limits.forces_now([1.0], [9.0], [2.0]).tolist() == [200.0]
     assert limits.forces_now([1.0], [-9.0], [0.0]).tolist() == [300.0]
-    assert limits.speeds_now([-1.0], [-9.0]).tolist() == [CATCHING_UP * 2.0]
+    assert limits.speeds_now([-1.0], [-9.0]).tolist() == [2.0]
 
 
 def test_the_speed_is_that_of_the_way_to_the_target() -> None:

@@ -47,5 +47,4 @@ if __name__ == "__main__":
     from pkgutil import resolve_name
 
     resolve_name("yellowiron.support.limits:die_with_parent")(int(parent))
-
     resolve_name(target)(call)

@@ -21,6 +21,9 @@ COLLIDING = DETAILS[:2]
 BRAKE_GIVES = 0.002
 """Radians (metres of a slide) by which a brake that is a spring gives before it slips."""
 
+CATCHING_UP = 1.05
+"""Of its rated speed: so fast may go what follows a target that moves at it."""
+
 CONE = "elliptic"
 IMPRATIO = 1000.0
 """Friction is so many times as hard as what holds bodies apart, else what stands with its brakes set creeps downhill:

@@ -9,9 +9,9 @@ hoops: a hoop of mass m that rolls with speed v turns with the energy m v²/2, a
 runs around with v. The body that the track moves with loses their mass and moments, so that the machine's mass, centre
 and inertia in the drawn pose stay what they are.
 
-A track whose brake is set does not roll: it lies on the ground as a pad, as long and as wide as it is there. Balls do
-not for that. Those at the ends hardly hold, and a machine on a slope stands on them; and where a ball touches in one
-point, PhysX lets it creep by a millimetre or two a second.
+A track whose brake is set does not roll: it lies on the ground as a pad, as long and as wide as it is there. Balls will
+not do: those at the ends hardly hold, and a machine on a slope stands on them; and where a ball touches in one point,
+PhysX lets it creep by a millimetre or two a second.
 """
 
 from __future__ import annotations

@@ -14,8 +14,8 @@ from yellowiron.specs.values.requested import usual
 class Match:
     """A claim that speaks of a wanted value. `score` 0…1: the share of its label that the wanted value's phrases
     explain, less what is borrowed from headings. `rest` are its other words that may mean another property, `lost` what
-    they cost;
-    `by_label` is False where only headings or heads name the property, `by_head` True where heads are needed for it."""
+    they cost; `by_label` is False where only headings or heads name the property, `by_head` True where heads are needed
+    for it."""
 
     wanted: Wanted
     claim: Claim

@@ -7,13 +7,11 @@ import math
 from pxr import Sdf
 
 from yellowiron.model.mechanism import Drive, Joint, Spring
+from yellowiron.support.record import CATCHING_UP
 from yellowiron.usd.authoring.stage import Types, apply_schemas, set_attribute
 
 INSTANCES = {"revolute": "angular", "prismatic": "linear"}
 """Joint type → the instance of PhysicsDriveAPI that drives its one coordinate."""
-
-CATCHING_UP = 1.05
-"""What follows a target that moves at rated speed may be so much faster than it."""
 
 
 def per_usd_unit(joint_type: str) -> float:
