@@ -1,12 +1,14 @@
 """Steps of a target in PhysX and Newton, by plain calls on the file: how fast a cylinder goes, by its rated speed.
 
-    python benchmarks/bench_steps.py [FILE.usda …] [--engines physx newton] [--each-way]
+    python benchmarks/bench_steps.py [FILE.usda …] [--engines physx newton] [--each-way | --levers]
 
 Default: both examples, built into a temporary folder. The machine is referenced into a plain scene with its base fixed
 (`bench_defaults.py`); nothing of `yellowiron.simulation` is used. From the drawn pose, and from the one with all
 cylinders at their farther ends, every cylinder is told one end of its stroke, and then the other; printed is its
 greatest speed each way in per cent of flow over area. With `--each-way` PhysX is told limits before every step
-(`yellowiron.each_way`). MuJoCo: `bench_physics.py`.
+(`yellowiron.each_way`). With `--levers` the file's variant `Actuation` is `hydraulic`, levers are pushed whole instead,
+through `yellowiron.hydraulics`, one by one and then all at once, and the most power of all cylinders is printed (by
+what their drives give at their positions and speeds). MuJoCo: `bench_physics.py`.
 """
 
 from __future__ import annotations
@@ -23,12 +25,14 @@ from typing import Any
 
 import numpy as np
 
-from bench_defaults import built, physx_schemas, read, world
+from bench_defaults import MACHINE, built, physx_schemas, read, world
 from yellowiron.each_way import EachWay
+from yellowiron.hydraulics import Hydraulics
+from yellowiron.model.mechanism import Drive as Rated
 from yellowiron.model.mechanism import Mechanism
 from yellowiron.usd import read_mechanism
 
-HZ = {"physx": 120.0, "newton": 240.0}
+HZ = {"physx": 120.0, "newton": 1000.0}
 REST = 1.0
 """Seconds before a step, and the time that a cylinder has to a pose."""
 LONGEST = 12.0
@@ -41,62 +45,61 @@ def main() -> None:
     parser = argparse.ArgumentParser(description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter)
     parser.add_argument("files", nargs="*", type=Path)
     parser.add_argument("--engines", nargs="*", choices=HZ, default=list(HZ))
-    parser.add_argument("--each-way", action="store_true")
+    led = parser.add_mutually_exclusive_group()
+    led.add_argument("--each-way", action="store_true")
+    led.add_argument("--levers", action="store_true")
     parser.add_argument("--one", help=argparse.SUPPRESS)
     given = parser.parse_args()
+    options = [option for option, on in (("--each-way", given.each_way), ("--levers", given.levers)) if on]
     if given.one:
-        print(json.dumps(steps_in(given.one, given.files[0], each_way=given.each_way)))
+        print(json.dumps(steps_in(given.one, given.files[0], options)))
         return
     with tempfile.TemporaryDirectory() as folder:
         for file in given.files or built(Path(folder), None):
             print(f"\n{file.parent.name}: greatest speed, of rated\n")
             print("| engine | cylinder | retracts | extends |\n|---|---|---|---|")
             for engine in given.engines:
-                command = [
-                    sys.executable,
-                    __file__,
-                    str(file),
-                    "--one",
-                    engine,
-                    *(["--each-way"] if given.each_way else []),
-                ]
+                command = [sys.executable, __file__, str(file), "--one", engine, *options]
                 ran = subprocess.run(command, capture_output=True, text=True, check=False)
                 if ran.returncode:
                     print(f"| {engine} | fails | | |")
                     continue
-                for name, (back, forth) in json.loads(ran.stdout.strip().splitlines()[-1]).items():
+                told = json.loads(ran.stdout.strip().splitlines()[-1])
+                for name, (back, forth) in told["speeds"].items():
                     print(f"| {engine} | {name} | {back:.0%} | {forth:.0%} |", flush=True)
+                if given.levers:
+                    print(f"| {engine} | all at once: {1e-3 * told['power']:.0f} kW at most | | |", flush=True)
 
 
-def steps_in(engine: str, file: Path, *, each_way: bool) -> dict[str, list[float]]:
-    """Slide → the greatest of its speeds each way, by its rated ones."""
+def steps_in(engine: str, file: Path, options: list[str]) -> dict[str, Any]:
+    """`speeds`: slide → the greatest of its speeds each way, by its rated ones. `power`: the most of all, W."""
     warnings.simplefilter("ignore")
     mechanism = read_mechanism(file)
     with tempfile.TemporaryDirectory() as folder:
         stage = world(file, Path(folder) / "world.usda", hz=HZ["physx"])
+        if "--levers" in options:
+            stage.GetPrimAtPath(MACHINE).GetVariantSet("Actuation").SetVariantSelection("hydraulic")
         _, slides = read(stage)
         stage.Save()
         scene = Path(folder) / "world.usda"
         if engine == "physx":
-            drive = in_physx(scene, stage, slides, mechanism if each_way else None)
+            drive = in_physx(scene, stage, slides, mechanism if "--each-way" in options else None)
         else:
             drive = in_newton(scene, slides)
     names = [slide.path.rpartition("/")[2] for slide in slides]
-    rated = [mechanism.joint(name).drive for name in names]
+    rated = [own for name in names if (own := mechanism.joint(name).drive) is not None]
     low, high = np.array([s.lower for s in slides]), np.array([s.upper for s in slides])
     worst = {name: [0.0, 0.0] for name in names}
     hz = HZ[engine]
+    if "--levers" in options:
+        return by_levers(mechanism, drive, names, rated, engine)
 
     def go(targets: np.ndarray, seconds: float, watched: int | None = None) -> None:
         for _ in range(round(seconds * hz)):
             at, speeds = drive(targets)
             if watched is None:
                 continue
-            limits = rated[watched]
-            assert limits is not None
-            way = int(speeds[watched] > 0.0)
-            share = abs(float(speeds[watched])) / limits.speeds[way]
-            worst[names[watched]][way] = max(worst[names[watched]][way], share)
+            faster(worst[names[watched]], float(speeds[watched]), rated[watched])
             if abs(float(at[watched] - targets[watched])) < 2e-3:
                 return
 
@@ -108,7 +111,43 @@ def steps_in(engine: str, file: Path, *, each_way: bool) -> dict[str, list[float
                 told = pose.copy()
                 told[number] = end[number]
                 go(told, LONGEST, number)
-    return worst
+    return {"speeds": worst}
+
+
+def faster(seen: list[float], speed: float, rated: Rated) -> None:
+    """Keeps the greatest of the speeds, by the rated one that way."""
+    way = int(speed > 0.0)
+    seen[way] = max(seen[way], abs(speed) / rated.speeds[way])
+
+
+def by_levers(mechanism: Mechanism, drive: Drive, names: list[str], rated: list[Rated], engine: str) -> dict[str, Any]:
+    """What the same come to with levers pushed whole, to one end and to the other: each alone, and all."""
+    hz, implicit = HZ[engine], engine == "physx"
+    oil = Hydraulics(mechanism, implicit=implicit)
+    circuits = {name: circuit for name, circuit in oil.circuits.items() if circuit.slide in names}
+    worst, power = {name: [0.0, 0.0] for name in names}, 0.0
+    at, forces = np.zeros(len(names)), np.zeros(len(names))
+    for pushed in [[name] for name in circuits] + [list(circuits)]:
+        for lever in (1.0, -1.0):
+            for _ in range(round(LONGEST * hz)):
+                known = [dict(zip(names, map(float, each), strict=True)) for each in (at, forces)]
+                told = oil.step(dict.fromkeys(pushed, lever), known[0], 1.0 / hz, forces=known[1])
+                targets = np.array([told.get(name, 0.0) for name in names])
+                before = at
+                at, speeds = drive(targets)
+                pulled = at if implicit else before
+                forces = np.array([given(*each) for each in zip(rated, targets, pulled, speeds, strict=True)])
+                power = max(power, float(np.maximum(forces * speeds, 0.0).sum()))
+                for number in (names.index(circuits[name].slide) for name in pushed):
+                    faster(worst[names[number]], float(speeds[number]), rated[number])
+    return {"speeds": worst, "power": power}
+
+
+def given(rated: Rated, target: float, at: float, speed: float) -> float:
+    """The force (N) of a position drive, its speed that at a step's end: both engines solve for that. Engines' own
+    figures are none: Newton's is before that, and PhysX's what goes through the joint."""
+    back, forth = rated.forces
+    return max(-back, min(forth, rated.stiffness * (target - at) - rated.damping * speed))
 
 
 def in_physx(file: Path, stage: Any, slides: list[Any], told: Mechanism | None) -> Drive:

@@ -22,6 +22,9 @@ ENGINE = ("Net Power", "Engine Power", "Gross Power")
 """Specifications that say what the engine has, the first that is known."""
 TO_OIL = 0.85
 """Of the engine's power, what reaches the oil."""
+CUSHION, CREEPING = 0.06, 0.1
+"""Metres before its ends (at most the second of its stroke) over which a cylinder's own throttles slow it evenly, and
+to which share of its speed. They are 40 to 80 mm long on booms and arms."""
 
 
 @dataclass(frozen=True)
@@ -56,10 +59,13 @@ class Hydraulics:
         flow: float | None = None,
         power: float | None = None,
         spool: float = SPOOL,
+        cushion: float = CUSHION,
+        implicit: bool = False,
     ) -> None:
         """`flow`: what the pump gives all cylinders together, m³/s (default: what its largest consumer takes at rated
         speed). `power`: what it has for it, W (default: 0.85 of the engine's by the sheet, else unlimited). `spool`:
-        seconds in which a valve opens.
+        seconds in which a valve opens. `cushion`: metres before its ends over which a cylinder is slowed. `implicit`:
+        the engine's drives pull to where a slide will be after a step, as PhysX's do, not from where it is.
 
         `YellowironError` where no cylinder of the machine has a rated speed.
         """
@@ -76,7 +82,7 @@ class Hydraulics:
         """m³/s of the pump."""
         self.power = _engine(mechanism) * TO_OIL if power is None else float(power)
         """W at the pump; infinite where nothing says it."""
-        self._spool = spool
+        self._spool, self._cushion, self._implicit = spool, cushion, implicit
         self._openings = dict.fromkeys(self.circuits, 0.0)
         self._targets: dict[str, float] = {}
         self._strokes: dict[str, float] = {}
@@ -141,16 +147,27 @@ class Hydraulics:
 
     def _target(self, circuit: Circuit, stroke: float, speed: float, seconds: float) -> float:
         """The target, moved on; no farther from where the slide is than the drive's whole force reaches, its damping
-        at the slide's own speed overcome: oil that cannot move it goes over the relief valve."""
-        target = self._targets.get(circuit.slide, stroke) + speed * seconds
+        at the slide's own speed overcome: oil that cannot move it goes over the relief valve. That speed counts up to
+        the oil's: what is faster is not pushed."""
+        target = self._targets.get(circuit.slide, stroke)
+        speed *= self._cushioned(circuit, target, speed)
+        target += speed * seconds
         moved = stroke - self._strokes.get(circuit.slide, stroke)
         self._strokes[circuit.slide] = stroke
         if speed != 0.0:
-            ahead = circuit.lag * (moved / seconds if seconds > 0.0 else 0.0)
+            own = moved / seconds if seconds > 0.0 else 0.0
+            slowest, fastest = min(speed, 0.0), max(speed, 0.0)
+            ahead = (circuit.lag + self._implicit * seconds) * max(slowest, min(fastest, own))
             back, forth = (force * circuit.softness for force in circuit.forces)
             target = max(stroke - back + min(ahead, 0.0), min(stroke + forth + max(ahead, 0.0), target))
         self._targets[circuit.slide] = target = max(circuit.lower, min(circuit.upper, target))
         return target
+
+    def _cushioned(self, circuit: Circuit, target: float, speed: float) -> float:
+        """The share of its speed that is left to a cylinder so far from the end that it goes to: evenly slowed."""
+        length = min(self._cushion, CREEPING * (circuit.upper - circuit.lower))
+        room = circuit.upper - target if speed > 0.0 else target - circuit.lower
+        return max(CREEPING, math.sqrt(max(room, 0.0) / length)) if room < length else 1.0
 
 
 def _circuit(mechanism: Mechanism, actuator: Actuator) -> Circuit | None:

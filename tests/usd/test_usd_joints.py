@@ -5,6 +5,7 @@ from __future__ import annotations
 import math
 from dataclasses import replace
 from pathlib import Path
+from typing import Any
 
 import numpy as np
 import pytest
@@ -14,6 +15,7 @@ from pxr import Gf, Usd, UsdGeom, UsdPhysics
 
 from yellowiron.usd.authoring.rotation import axis_of, principal_axes, quaternion_of, quaternion_to
 from yellowiron.usd.layers.mujoco import armature
+from yellowiron.usd.write import write_machine
 
 UNIT = st.tuples(*(st.floats(-1, 1) for _ in range(3))).filter(lambda v: np.linalg.norm(v) > 1e-3)
 
@@ -114,6 +116,27 @@ def test_position_drive_of_a_slide(stage: Usd.Stage) -> None:
     assert prim.GetAttribute("physxJoint:maxJointVelocity").Get() == pytest.approx(1.05 * 0.31)
     assert prim.GetAttribute("physxJointAxis:linear:maxJointVelocity").Get() == pytest.approx(1.05 * 0.31)
     assert prim.GetAttribute("newton:velocityLimit").Get() == pytest.approx(1.05 * 0.31)
+
+
+def test_who_leads_a_cylinder_is_a_variant(machine: Any, tmp_path: Path) -> None:
+    """By targets it keeps to its slower way's speed in engines that know one, by levers to its faster way's."""
+    made = machine.mechanism
+    joints = tuple(
+        replace(j, drive=replace(j.drive, reverse_velocity=0.5)) if j.name == "slide" and j.drive else j
+        for j in made.joints
+    )
+    other = replace(made, joints=joints)
+    file, *_ = write_machine(
+        other, machine.assembly, tmp_path, name="machine", texture_folders=[machine.texture_folder]
+    )
+    stage = Usd.Stage.Open(str(file))
+    chosen = stage.GetDefaultPrim().GetVariantSet("Actuation")
+    assert chosen.GetVariantNames() == ["hydraulic", "position"] and chosen.GetVariantSelection() == "position"
+    names = ("physxJoint:maxJointVelocity", "physxJointAxis:linear:maxJointVelocity", "newton:velocityLimit")
+    for choice, speed in (("position", 0.31), ("hydraulic", 0.5)):
+        chosen.SetVariantSelection(choice)
+        limits = [joint_prim(stage, "slide").GetAttribute(name).Get() for name in names]
+        assert limits == pytest.approx([1.05 * speed] * 3)
 
 
 def test_velocity_drive_of_a_wheel_is_per_degree(stage: Usd.Stage) -> None:

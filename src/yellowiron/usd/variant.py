@@ -31,7 +31,8 @@ from yellowiron.usd.authoring.stage import (
     set_attribute,
     set_placement,
 )
-from yellowiron.usd.layers.drives import INSTANCES, per_usd_unit, speed_limit, to_usd_unit
+from yellowiron.usd.layers.actuation import limited
+from yellowiron.usd.layers.drives import INSTANCES, per_usd_unit, speed_limits, to_usd_unit
 from yellowiron.usd.layers.joints import usd_type
 from yellowiron.usd.layers.mujoco import armature
 from yellowiron.usd.layers.sensors import sensor_quaternion
@@ -245,6 +246,10 @@ def _write_joint(
         values["drive"] = to_json(replace(new.drive, source=_SOURCE))
         inertias = armature(old, base), armature(new, variant)
         _write_drive(over(layer, _on(prims, path)), new, old, new.drive, inertias)
+        if not all(map(_near, speed_limits(old), speed_limits(new))):
+            for spec, limit in limited(layer, _on(prims, prims.root), _on(prims, path), new):
+                for name in (*(f"{s}:maxJointVelocity" for s in _physx(new)), "newton:velocityLimit"):
+                    set_attribute(spec, name, Types.Float, float(limit))
         for kind, place in prims.servos.get(new.name, ()):
             if new.drive.rated:
                 write_gains(over(layer, _on(prims, place)), kind, new.drive)
@@ -281,19 +286,23 @@ def _write_anchor(layer: Sdf.Layer, joint: Joint, variant: Mechanism, prims: Mac
             set_attribute(spec, f"physics:localPos{side}", Types.Point3f, place)
 
 
+def _physx(joint: Joint) -> tuple[str, str]:
+    """How the names of a joint's attributes begin in PhysX's two schemas."""
+    return "physxJoint", f"physxJointAxis:{INSTANCES[joint.type]}"
+
+
 def _write_drive(spec: Sdf.PrimSpec, joint: Joint, old: Joint, drive: Drive, inertias: tuple[float, float]) -> None:
-    """Gains, force, speed and armature, those that are others, in all the words that the base has for them.
+    """Gains, force and armature, those that are others, in all the words that the base has for them.
     `inertias`: what Newton has for the armature, before and after."""
     instance, factor = INSTANCES[joint.type], per_usd_unit(joint.type)
     before = old.drive
     assert before is not None
     gains = f"drive:{instance}:physics"
-    physx = ("physxJoint", f"physxJointAxis:{instance}")
+    physx = _physx(joint)
     said = [
         ((f"{gains}:damping",), before.damping * factor, drive.damping * factor),
         ((f"{gains}:stiffness",), before.stiffness * factor, drive.stiffness * factor),
         ((f"{gains}:maxForce",), before.strongest, drive.strongest),
-        ((*(f"{s}:maxJointVelocity" for s in physx), "newton:velocityLimit"), speed_limit(old), speed_limit(joint)),
         (tuple(f"{s}:armature" for s in physx), before.armature, drive.armature),
         (("newton:armature",), *inertias),
     ]

@@ -38,6 +38,9 @@ _PASSIVE_ROOM = 0.05
 _BY_EYE = "geometry: rod eye against gland"
 WALL = 0.82
 """Bore over outer diameter of a barrel that shows none: welded cylinders have walls of about a tenth of their bore."""
+_RATIO, _THIN = 2.0, 0.94
+"""… where its rod leaves no pull with that: the bore that its area is so many times what it pulls with, the largest
+ratio of ISO 7181 that machines lift and dig with, and no more than the second of the barrel's outer diameter."""
 
 _ENGAGED = 0.25
 """Of a section: so much of it stays in the one it slides in. Masts and telescopes keep a fifth to a third."""
@@ -174,16 +177,26 @@ def _sizes(entry: CylinderTemplate, work: _Work) -> _Sizes:
         barrel, rod = slide.bodies[end], slide.bodies[1 - end]
         geometry, count, length = _fixed(entry, end, work)
     bore = _size("bore", geometry.bore, entry.slide, work)
+    diameter = _size("rod_diameter", geometry.rod_diameter, entry.slide, work)
     if bore.value == 0.0 and geometry.outer is not None:
-        outer = _mm(geometry.outer)
-        bore = Known(WALL * geometry.outer, f"geometry: {WALL:g} of the barrel's outer {outer}, without a bore")
-        words = f"The barrel is drawn without its bore: {_mm(bore.value)} was taken, {WALL:g} of its outer diameter."
-        name = work.actuator.specifications.get("bore", "bore")
-        work.warn("MEC029", entry.slide, words, f'--set "{name}=… mm"')
+        bore = _unbored(geometry.outer, diameter.value, entry, work)
     if count > 1:
         bore = Known(bore.value, f"{bore.source}; {count} cylinders {'drawn' if entry.pins else 'moving'} as one")
-    diameter = _size("rod_diameter", geometry.rod_diameter, entry.slide, work)
     return _Sizes(entry, barrel, rod, geometry, bore, diameter, count, length)
+
+
+def _unbored(outer: float, rod: float, entry: CylinderTemplate, work: _Work) -> Known:
+    """The bore of a barrel that is drawn without one, with a finding."""
+    about_rod = min(rod * math.sqrt(_RATIO / (_RATIO - 1.0)), _THIN * outer)
+    bore = max(WALL * outer, about_rod)
+    share = f"{bore / outer:.2g} of the barrel's outer {_mm(outer)}, without a bore"
+    why = f"; {WALL:g} would leave its rod of {_mm(rod)} hardly a pull" if bore > WALL * outer else ""
+    words = (
+        f"The barrel is drawn without its bore: {_mm(bore)} was taken, {bore / outer:.2g} of its outer diameter{why}."
+    )
+    name = work.actuator.specifications.get("bore", "bore")
+    work.warn("MEC029", entry.slide, words, f'--set "{name}=… mm"')
+    return Known(bore, f"geometry: {share}{why}")
 
 
 def _fixed(entry: CylinderTemplate, end: int, work: _Work) -> tuple[CylinderGeometry, int, float | None]:

@@ -29,7 +29,7 @@ from yellowiron.usd.authoring.stage import (
     set_attribute,
     set_targets,
 )
-from yellowiron.usd.layers.drives import INSTANCES, speed_limit, write_drive
+from yellowiron.usd.layers.drives import INSTANCES, speed_limits, write_drive
 from yellowiron.usd.layers.physics import write_mass
 from yellowiron.usd.layers.physx import ITERATIONS, LOOPS_LAST, iterations, loops_last
 from yellowiron.usd.layers.servos import DAMPER, SERVO
@@ -157,7 +157,7 @@ def _write_drive(spec: Sdf.PrimSpec, joint: Joint) -> None:
     if joint.drive is None:
         return
     write_drive(spec, joint, joint.drive)
-    velocity, instance = min(speed_limit(joint), _UNLIMITED), INSTANCES[joint.type]
+    velocity, instance = min(*speed_limits(joint), _UNLIMITED), INSTANCES[joint.type]
     for name in ("physxJoint", f"physxJointAxis:{instance}"):
         set_attribute(spec, f"{name}:maxJointVelocity", Types.Float, velocity)
     set_attribute(spec, "newton:velocityLimit", Types.Float, velocity)

@@ -24,14 +24,15 @@ def to_usd_unit(joint_type: str) -> float:
     return math.degrees(1.0) if joint_type == "revolute" else 1.0
 
 
-def speed_limit(joint: Joint) -> float:
-    """The largest speed of a joint's coordinate in metres or degrees a second, for engines that know one: the slower
-    way's, and a little to catch up by; infinite where there is none."""
+def speed_limits(joint: Joint) -> tuple[float, float]:
+    """The largest speed of a joint's coordinate the slower and the faster way, in metres or degrees a second, and a
+    little to catch up by; infinite where there is none."""
     drive = joint.drive
     if drive is None or joint.cut or not 0.0 < drive.slowest < math.inf:
-        return math.inf
+        return math.inf, math.inf
     spare = CATCHING_UP if drive.kind == "position" else 1.0
-    return spare * drive.slowest * to_usd_unit(joint.type)
+    slower, faster = (spare * speed * to_usd_unit(joint.type) for speed in (drive.slowest, max(drive.speeds)))
+    return slower, faster
 
 
 def write_spring(spec: Sdf.PrimSpec, joint: Joint, spring: Spring) -> None:

@@ -16,9 +16,10 @@ from yellowiron.model.mechanism import Body, Joint, Mechanism, scrubbing
 from yellowiron.model.template import Follows, by_first_leader
 from yellowiron.support.record import SCRUBS
 from yellowiron.usd.authoring.stage import Types, apply_schemas, over, set_attribute, set_targets
+from yellowiron.usd.layers.actuation import limited
 from yellowiron.usd.layers.articulation import articulation_roots
 from yellowiron.usd.layers.base import shape_path, solid_paths
-from yellowiron.usd.layers.drives import INSTANCES, speed_limit, to_usd_unit
+from yellowiron.usd.layers.drives import INSTANCES, to_usd_unit
 from yellowiron.usd.layers.joints import usd_type
 from yellowiron.usd.planning.plan import COLLIDERS, Plan
 
@@ -81,12 +82,13 @@ def write_mujoco(layer: Sdf.Layer, base: Sdf.Layer, plan: Plan) -> None:
 
 def _write_newton_joint(layer: Sdf.Layer, joint: Joint, plan: Plan) -> None:
     """Rated speed, metres or degrees a second, and armature, kg or kg·m² (per radian, whatever the other units)."""
-    values = {"velocityLimit": speed_limit(joint), "armature": armature(joint, plan.mechanism)}
-    for name, value in values.items():
-        if 0.0 < value < math.inf:
-            spec = over(layer, plan.joint_paths[joint.name])
-            apply_schemas(spec, "NewtonJointAPI")
-            set_attribute(spec, f"newton:{name}", Types.Float, value)
+    path = plan.joint_paths[joint.name]
+    said = [(spec, "velocityLimit", limit) for spec, limit in limited(layer, plan.root, path, joint)]
+    if (inertia := armature(joint, plan.mechanism)) > 0.0:
+        said.append((over(layer, path), "armature", inertia))
+    for spec, name, value in said:
+        apply_schemas(spec, "NewtonJointAPI")
+        set_attribute(spec, f"newton:{name}", Types.Float, value)
 
 
 def armature(joint: Joint, mechanism: Mechanism) -> float:

@@ -6,16 +6,15 @@ forms, Isaac Sim's `PhysxJointAPI` and the per-axis `PhysxJointAxisAPI` that rep
 
 from __future__ import annotations
 
-import math
-
 from pxr import Sdf
 
 from yellowiron.model.mechanism import Joint, Mechanism
 from yellowiron.model.template import by_first_leader
 from yellowiron.support.record import ENDLESS
 from yellowiron.usd.authoring.stage import Types, apply_schemas, over, set_attribute
+from yellowiron.usd.layers.actuation import limited
 from yellowiron.usd.layers.articulation import articulation_roots
-from yellowiron.usd.layers.drives import INSTANCES, speed_limit
+from yellowiron.usd.layers.drives import INSTANCES
 from yellowiron.usd.planning.pin_links import slewed_cuts
 from yellowiron.usd.planning.plan import COLLIDERS, MESH, Plan
 
@@ -64,8 +63,8 @@ def write_physx(layer: Sdf.Layer, base: Sdf.Layer, plan: Plan) -> None:
         set_attribute(root, "physxArticulation:enabledSelfCollisions", Types.Bool, False)
         set_attribute(root, ITERATIONS, Types.Int, iterations(plan.mechanism))
     for joint in plan.mechanism.joints:
-        if math.isfinite(limit := speed_limit(joint)):
-            _write_joint(over(layer, plan.joint_paths[joint.name]), joint, "maxJointVelocity", limit)
+        for spec, limit in limited(layer, plan.root, plan.joint_paths[joint.name], joint):
+            _write_joint(spec, joint, "maxJointVelocity", limit)
         if (armature := joint.armature if joint.drive is None else joint.drive.armature) > 0.0:
             _write_joint(over(layer, plan.joint_paths[joint.name]), joint, "armature", armature)
     for name in endless(plan.mechanism):

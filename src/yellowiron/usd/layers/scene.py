@@ -18,6 +18,8 @@ from yellowiron.usd.authoring.stage import (
     set_display_name,
     set_targets,
 )
+from yellowiron.usd.layers.actuation import ACTUATIONS, has_actuations
+from yellowiron.usd.layers.actuation import NAME as ACTUATION
 from yellowiron.usd.layers.articulation import BASES
 from yellowiron.usd.layers.brakes import BRAKES, has_brakes
 from yellowiron.usd.layers.physx import LOOPS_LAST, loops_last
@@ -39,7 +41,8 @@ _SURFACE_LIFT = -0.001
 def write_machine_layer(layer: Sdf.Layer, plan: Plan) -> None:
     """The machine's own file: default prim, metadata, payload and variant sets; no ground, light or scene.
 
-    `Base` and `Brakes` are empty here: the layers of `Physics` have the same sets, and follow the selection made here.
+    `Base`, `Actuation` and `Brakes` are empty here: the layers of `Physics` have the same sets, and follow the
+    selection made here.
     """
     spec = define(layer, plan.root, "Xform")
     set_display_name(spec, plan.mechanism.name)
@@ -52,6 +55,9 @@ def write_machine_layer(layer: Sdf.Layer, plan: Plan) -> None:
     spec.variantSelections.update({"Base": BASES[0], "Physics": "on"})
     declare_variants(spec, DETAIL, DETAILS)
     spec.variantSelections.update({DETAIL: DETAILS[0]})
+    if has_actuations(plan.mechanism):
+        declare_variants(spec, ACTUATION, ACTUATIONS)
+        spec.variantSelections.update({ACTUATION: ACTUATIONS[0]})
     if has_brakes(plan.mechanism):
         declare_variants(spec, "Brakes", BRAKES)
         spec.variantSelections.update({"Brakes": BRAKES[0]})
