@@ -20,6 +20,7 @@ from yellowiron.mechanism.bodies.choice import Choice
 from yellowiron.mechanism.bodies.hidden_knuckles import with_knuckles
 from yellowiron.mechanism.bodies.hidden_wheels import hidden_wheels, with_wheels
 from yellowiron.mechanism.joints import chains
+from yellowiron.mechanism.joints.couplings import with_hidden_couplings
 from yellowiron.mechanism.joints.followers import with_followers
 from yellowiron.mechanism.joints.frames import JointFrame, joint_frames, weld
 from yellowiron.mechanism.joints.kingpins import with_kingpins
@@ -81,6 +82,8 @@ def build_mechanism(
     frames = without_cylinders(template, frames, standing or {})
     template = cylinders.with_leaders(template, frames, findings)
     template, frames, direct, knuckles = with_kingpins(whole, template, frames, placement, findings)
+    template, frames, couplings = with_hidden_couplings(whole, template, frames, placement)
+    knuckles |= couplings
     template, hinges = with_direct_hinges(template, frames, placement, standing or {}, findings)
     direct |= hinges
 

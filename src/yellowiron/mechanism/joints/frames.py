@@ -160,8 +160,11 @@ def _pivot(
     findings += bearing.findings(joint.name)
     line = bearing.line
     middle = line.at(0.5 * sum(bearing.reach)) if wheel is None else _wheel_middle(placement, wheel, line)
-    if joint.type == "spherical" and (eye := eye_middle(placement, bearing, bodies, pins)) is not None:
-        middle = eye
+    if joint.type == "spherical":
+        eye = eye_middle(placement, bearing, bodies, pins)
+        # A ball is where it was estimated to be: what is round about its pin may reach anywhere.
+        estimated = line.foot(placement.axes[joint.name][0]) if joint.name in placement.axes and not pins else middle
+        middle = eye if eye is not None else estimated
     return _frame(joint, bodies, placement, bearing, middle, machine_sense(line.direction))
 
 
