@@ -23,6 +23,7 @@ from yellowiron.mechanism.joints import chains
 from yellowiron.mechanism.joints.couplings import with_hidden_couplings
 from yellowiron.mechanism.joints.followers import with_followers
 from yellowiron.mechanism.joints.frames import JointFrame, joint_frames, weld
+from yellowiron.mechanism.joints.held_balls import with_held_balls
 from yellowiron.mechanism.joints.kingpins import with_kingpins
 from yellowiron.mechanism.joints.planarity import follow_first, make_parallel
 from yellowiron.mechanism.joints.tree import Tree, links, loop_groups, loose_bodies, planar_loops
@@ -83,7 +84,8 @@ def build_mechanism(
     template = cylinders.with_leaders(template, frames, findings)
     template, frames, direct, knuckles = with_kingpins(whole, template, frames, placement, findings)
     template, frames, couplings = with_hidden_couplings(whole, template, frames, placement)
-    knuckles |= couplings
+    template, frames, crosses = with_held_balls(template, frames, findings)
+    knuckles |= couplings | crosses
     template, hinges = with_direct_hinges(template, frames, placement, standing or {}, findings)
     direct |= hinges
 
