@@ -190,16 +190,31 @@ def _as_drawn(template: Template, placement: Placement, findings: list[Finding])
     """The template without axles, frames and slideways that are not drawn (`as_drawn`), with a finding for each."""
     names = [r.name for r in template.roles if r.rigid]
     merged = as_drawn(template, [name for name in names if placement.has_body(name)])
-    merged_away = {name for name in names if not merged.role(name).rigid}
+    merged_away = {name for name in names if not merged.role(name).rigid and not placement.has_body(name)}
     rolling = {template.body_of(str(r.parent)) for r in template.roles if r.kind == "wheel" and r.rigid}
     for name in names:
         # What hangs on an axle that is not drawn goes with it.
         if name in merged_away and template.body_of(str(template.role(name).parent)) not in merged_away:
+            onto = merged.body_of(name)
             what = "its wheels turn on" if name in rolling else "it is one with"
             what = "what slides on it slides on" if template.role(name).kind == "arm" else what
-            words = f"No part of the CAD model is '{name}': {what} '{merged.body_of(name)}'."
+            what = _across_coupling(name, template, merged) or f"{what} '{onto}'"
+            words = f"No part of the CAD model is '{name}': {what}."
             findings.append(Finding("MEC017", "warning", name, words, "Give its parts that role in the alignment."))
     return merged
+
+
+def _across_coupling(name: str, template: Template, merged: Template) -> str:
+    """How a coupling that is not drawn has what it joins move, "" for what is no coupling."""
+    ends = {j.name: {str(b) for b in merged.bodies_of(j)} for j in merged.joints if names_known(j, merged)}
+    added = ends.keys() - {j.name for j in template.joints}
+    bearer = str(merged.body_of(name))
+    for other in sorted({str(b) for j in template.joints if name in template.bodies_of(j) for b in template.bodies_of(j)}):
+        if other != bearer and any(ends[joint] == {other, bearer} for joint in added):
+            return f"'{other}' turns on '{bearer}'"
+        if other not in (bearer, name) and template.role(other).rigid and not merged.role(other).rigid:
+            return f"'{other}' and '{bearer}' move as one"
+    return ""
 
 
 _IN_WORDS = ("MEC013", "MEC026", "MEC038")

@@ -158,8 +158,8 @@ def _with_bearers_in_one(template: Template, present: Collection[str]) -> Templa
 def without_absent_couplings(template: Template, present: Collection[str]) -> Template:
     """The template (its variants decided) without the couplings that are not drawn (the yokes between a dozer's push
     arms and its blade), where what they carry hangs on nothing else that is drawn but hydraulic cylinders and struts.
-    Where a cylinder is drawn between the two bodies that a coupling joins, they hinge on each other on its first pin;
-    otherwise they are one."""
+    Where cylinders or struts are drawn between whatever couplings join, these hinge on each other on the couplings'
+    first pins; otherwise they are one."""
     roles = {r.name: r for r in template.roles}
     known = [j for j in template.joints if names_known(j, template)]
     ends = {j.name: tuple(map(str, template.bodies_of(j))) for j in known}
@@ -175,26 +175,27 @@ def without_absent_couplings(template: Template, present: Collection[str]) -> Te
     struts = {b for b, own in at.items() if all(j.type == "spherical" for j in own) and len(own) == 2}
     idle = rams | {b for b in struts if not roles[b].kind}
     slides = [ends[j.name] for j in known if j.type == "prismatic" and {*ends[j.name]} <= rams & {*present}]
-    across = {frozenset({*beside(a), *beside(b)}) for a, b in slides}
-    joints, places = list(template.joints), {}
+    across = [{*beside(a), *beside(b)} for a, b in slides] + [{*beside(b)} for b in idle & {*present} - rams]
+    stands: dict[str, dict[str, str]] = {}
     for name, role in roles.items():
         held = {b for b in beside(name) if b not in idle}
         if role.kind or not role.rigid or name in {*present} | idle or len(held) != 2 or not held <= {*present}:
             continue
         loose = [b for b in held if not any(o in present and o not in idle for o in beside(b))]
-        if len(loose) != 1:
-            continue
-        (carried,), (bearer,) = loose, held - {*loose}
-        places[name] = bearer
-        joints = [j for j in joints if j not in at[name]]
-        if frozenset(held) in across:
+        if len(loose) == 1:
+            stands.setdefault(loose[0], {})[name] = next(b for b in held if b != loose[0])
+    joints, places = list(template.joints), {}
+    for carried, bearers in stands.items():
+        turns = all({bearer, carried} in across for bearer in bearers.values())
+        joints = [j for j in joints if not bearers.keys() & {*ends.get(j.name, ())}]
+        places |= bearers
+        for name, bearer in bearers.items() if turns else ():
             first = next(j for j in at[name] if bearer in ends[j.name])
             pin = next(part for part in first.parts if part != name)
             joints.append(replace(first, name=f"{bearer}2{carried}_joint", parts=(carried, pin)))
-        elif carried in places:
-            places[bearer] = places[carried]
-        else:
-            places[carried] = bearer
+        if not turns:
+            one, *others = bearers.values()
+            places |= dict.fromkeys([carried, *others], one)
     if not places:
         return template
     merged = replace(

@@ -9,7 +9,6 @@ from __future__ import annotations
 from collections.abc import Iterator, Mapping
 from dataclasses import replace
 
-import networkx
 import numpy as np
 
 from yellowiron.mechanism.bodies.hidden_knuckles import HiddenKnuckle
@@ -37,7 +36,8 @@ def with_held_balls(
     hidden: dict[str, HiddenKnuckle] = {}
     for name, frame in frames.items():
         pair = {*frame.bodies}
-        if frame.joint.type != "spherical" or any(kinds[b] in RAM for b in pair):
+        beside = [f for f in frames.values() if {*f.bodies} == pair]
+        if frame.joint.type != "spherical" or len(beside) > 1 or any(kinds[b] in RAM for b in pair):
             continue
         holders = list(_holders(template, ends, pair))
         drawn = [h for h in holders if {*h} <= frames.keys()]
@@ -49,7 +49,7 @@ def with_held_balls(
         made, own = _hinges(frame, ways)
         if own is not None:
             roles.append(own)
-            hidden[own.name] = HiddenKnuckle(own.name, frame.bodies[0], frame.anchor)
+            hidden[own.name] = HiddenKnuckle(own.name, frame.bodies[1], frame.anchor)
         joints = [k for j in joints for k in ([f.joint for f in made] if j.name == name else [j])]
         del found[name]
         found |= {f.joint.name: f for f in made}
@@ -68,7 +68,7 @@ def _holders(template: Template, ends: Mapping[str, set[str]], pair: set[str]) -
         names = tuple(n for n in own if n is not None and n in ends)
         if len(names) == 3 and ends[names[0]] ^ ends[names[1]] ^ ends[names[2]] == pair:
             yield names
-    for body in networkx.Graph(tuple(p) for p in ends.values() if len(p) == 2).nodes - pair:
+    for body in sorted({b for own in ends.values() for b in own} - pair):
         names = tuple(n for n, p in ends.items() if body in p)
         balls = all(template.joint(n).type == "spherical" for n in names)
         if len(names) == 2 and balls and ends[names[0]] ^ ends[names[1]] == pair:
@@ -93,16 +93,16 @@ def _ways(ball: Floats, holders: list[tuple[Floats, Floats]]) -> list[Floats]:
 
 def _hinges(frame: JointFrame, ways: list[Floats]) -> tuple[list[JointFrame], Role | None]:
     """What a ball becomes, and the role of the hidden body between two hinges."""
-    joint, (first, second) = frame.joint, frame.bodies
+    joint, (carried, bearer) = frame.joint, frame.bodies
     if not ways:
         welded = replace(joint, type="fixed", drive=None, free=False)
         return [replace(frame, joint=welded, axis=np.array([1.0, 0.0, 0.0]), weight=0.0)], None
     turning = replace(joint, type="revolute")
     if len(ways) == 1:
         return [replace(frame, joint=turning, axis=ways[0], weight=0.0)], None
-    between = Role(f"{joint.name.removesuffix('_joint')}_cross", first, rigid=True)
+    between = Role(f"{carried}_cross", bearer, rigid=True)
     made = []
-    for way, pair in zip(ways, ((first, between.name), (between.name, second)), strict=True):
+    for way, pair in zip(ways, ((bearer, between.name), (between.name, carried)), strict=True):
         other = JointTemplate(f"{pair[0]}2{pair[1]}_joint", "revolute", pair)
         made.append(replace(frame, joint=other, bodies=pair, axis=way, weight=0.0))
     return made, between
