@@ -98,8 +98,7 @@ def _driven(file: Path, wanted: list[str], size: float) -> Driven:
         else:
             stuck.append(f"{name} ({100 * share:.0f} % of the way)" if np.isfinite(share) else f"{name} (broke down)")
         last = slice(-1, None)
-        apart = max(apart, one := comparison.compare(measured[last], rotations[last], origins[last]).pin.value / size)
-        print(name, share, one, comparison.compare(measured[last], rotations[last], origins[last]).pin)
+        apart = max(apart, comparison.compare(measured[last], rotations[last], origins[last]).pin.value / size)
     return Driven(tuple(moved), tuple(stuck), apart)
 
 

@@ -55,6 +55,10 @@ def test_what_an_absent_coupling_carries_is_one_with_its_arms_where_no_cylinder_
     bodies = {r.name for r in chosen.roles if r.rigid}
     assert as_drawn(chosen, bodies) is chosen
     bare = as_drawn(chosen, {b for b in bodies if not any(w in b for w in (*YOKES, "arm_tilt"))})
-    assert {bare.body_of(b) for b in ("blade", "push_arm_l", "push_arm_r")} == {bare.body_of("blade")}
+    assert [bare.joint(f"push_arm_{side}2blade_joint").type for side in "lr"] == ["fixed", "fixed"]
+    built = without(dozer(5, "push_arms", dual=True, ripper=False), "dozer", (*YOKES, "arm_tilt"), choices=ARMS)
+    told = {f.where: f.message for f in built.findings if f.code == "MEC017"}
+    assert "'blade' and 'push_arm_l' move as one" in told["push_arm_yoke_l"]
+    assert built.mobility is not None and built.mobility.computed == built.mobility.expected
     # A coupling beside another that is drawn stays what it is.
     assert as_drawn(chosen, bodies - {"push_arm_yoke_l"}).role("push_arm_yoke_l").rigid

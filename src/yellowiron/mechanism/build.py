@@ -206,14 +206,15 @@ def _as_drawn(template: Template, placement: Placement, findings: list[Finding])
 
 def _across_coupling(name: str, template: Template, merged: Template) -> str:
     """How a coupling that is not drawn has what it joins move, "" for what is no coupling."""
-    ends = {j.name: {str(b) for b in merged.bodies_of(j)} for j in merged.joints if names_known(j, merged)}
-    added = ends.keys() - {j.name for j in template.joints}
+    known = {j.name for j in template.joints}
     bearer = str(merged.body_of(name))
-    for other in sorted({str(b) for j in template.joints if name in template.bodies_of(j) for b in template.bodies_of(j)}):
-        if other != bearer and any(ends[joint] == {other, bearer} for joint in added):
-            return f"'{other}' turns on '{bearer}'"
-        if other not in (bearer, name) and template.role(other).rigid and not merged.role(other).rigid:
-            return f"'{other}' and '{bearer}' move as one"
+    beside = {str(b) for j in template.joints if name in template.bodies_of(j) for b in template.bodies_of(j)}
+    for joint in (j for j in merged.joints if j.name not in known and bearer in merged.bodies_of(j)):
+        other = next(str(b) for b in merged.bodies_of(joint) if b != bearer)
+        if other in beside:
+            return (
+                f"'{other}' turns on '{bearer}'" if joint.type != "fixed" else f"'{other}' and '{bearer}' move as one"
+            )
     return ""
 
 

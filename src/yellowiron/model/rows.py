@@ -157,9 +157,9 @@ def _with_bearers_in_one(template: Template, present: Collection[str]) -> Templa
 
 def without_absent_couplings(template: Template, present: Collection[str]) -> Template:
     """The template (its variants decided) without the couplings that are not drawn (the yokes between a dozer's push
-    arms and its blade), where what they carry hangs on nothing else that is drawn but hydraulic cylinders and struts.
-    Where cylinders or struts are drawn between whatever couplings join, these hinge on each other on the couplings'
-    first pins; otherwise they are one."""
+    arms and its blade; usually smaller than either body that they join), where what they carry hangs on nothing else
+    that is drawn but hydraulic cylinders and struts. Where cylinders or struts are drawn between whatever couplings
+    join, these hinge on each other on the couplings' first pins; otherwise they are welded."""
     roles = {r.name: r for r in template.roles}
     known = [j for j in template.joints if names_known(j, template)]
     ends = {j.name: tuple(map(str, template.bodies_of(j))) for j in known}
@@ -182,29 +182,26 @@ def without_absent_couplings(template: Template, present: Collection[str]) -> Te
         if role.kind or not role.rigid or name in {*present} | idle or len(held) != 2 or not held <= {*present}:
             continue
         loose = [b for b in held if not any(o in present and o not in idle for o in beside(b))]
-        if len(loose) == 1:
+        usual = [template.usual[b].area if b in template.usual else 0.0 for b in (name, *held)]
+        if len(loose) == 1 and usual[0] < min(usual[1:]):
             stands.setdefault(loose[0], {})[name] = next(b for b in held if b != loose[0])
     joints, places = list(template.joints), {}
     for carried, bearers in stands.items():
         turns = all({bearer, carried} in across for bearer in bearers.values())
         joints = [j for j in joints if not bearers.keys() & {*ends.get(j.name, ())}]
         places |= bearers
-        for name, bearer in bearers.items() if turns else ():
+        for name, bearer in bearers.items():
             first = next(j for j in at[name] if bearer in ends[j.name])
             pin = next(part for part in first.parts if part != name)
-            joints.append(replace(first, name=f"{bearer}2{carried}_joint", parts=(carried, pin)))
-        if not turns:
-            one, *others = bearers.values()
-            places |= dict.fromkeys([carried, *others], one)
+            joints.append(
+                replace(first, name=f"{bearer}2{carried}_joint", parts=(carried, pin))
+                if turns
+                else JointTemplate(f"{bearer}2{carried}_joint", "fixed", (carried, bearer))
+            )
     if not places:
         return template
-    merged = replace(
-        template,
-        roles=tuple(replace(r, parent=places[r.name], rigid=False) if r.name in places else r for r in template.roles),
-        joints=tuple(joints),
-    )
-    gone = {j.name for j in joints if names_known(j, merged) and len({*merged.bodies_of(j)}) == 1}
-    return replace(merged, joints=tuple(j for j in joints if j.name not in gone))
+    changed = (replace(r, parent=places[r.name], rigid=False) if r.name in places else r for r in template.roles)
+    return replace(template, roles=tuple(changed), joints=tuple(joints))
 
 
 def across_absent(template: Template, present: Collection[str]) -> Template:

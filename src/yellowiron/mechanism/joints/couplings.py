@@ -1,8 +1,8 @@
 """Couplings that are not drawn, with their two crossed pins, where a plain hinge in their stead would bind.
 
-What several arms carry (a dozer's blade on its push arms) tilts only if it may turn on each of them both ways; turned
-on one of them one way only, it does not sway, which its tag link would see to. So a hinge stands in for the coupling of
-the first arm, and a body that no part plays for each further one: on all of them if what keeps it from swaying is drawn.
+What several arms carry (a dozer's blade on its push arms) tilts only if it may turn on each of them both ways. Turned on
+one of them one way only, it does not sway, which its tag link would see to. So a hinge stands in for the coupling of the
+first arm, and a body that no part plays for each further one: for all of them if what keeps it from swaying is drawn.
 """
 
 from __future__ import annotations
@@ -27,8 +27,8 @@ _CROSSED = 0.5
 def with_hidden_couplings(
     whole: Template, drawn: Template, frames: Mapping[str, JointFrame], placement: Placement
 ) -> tuple[Template, dict[str, JointFrame], dict[str, HiddenKnuckle]]:
-    """The template `drawn` (the `whole` one without what is not drawn) and its frames with hidden couplings in the place
-    of the hinges that stand in for them (`model.rows.without_absent_couplings`), and those by name."""
+    """The template `drawn` (the `whole` one without what is not drawn) and its frames with hidden couplings in the
+    place of the hinges that stand in for them (`model.rows.without_absent_couplings`), and those by name."""
     known = [j for j in whole.joints if names_known(j, whole)]
     names = {j.name for j in known}
     stands: dict[str, tuple[str, JointTemplate, JointTemplate]] = {}
