@@ -53,6 +53,10 @@ def expand(template: Template, counts: Mapping[str, int]) -> Template:
     sizes |= {r.name: len(r.hidden["at"]) for r in template.roles if r.many and r.hidden}
     if not sizes:
         return template
+    # A part of a row's part is drawn with it, or alone: a tyre, and of its wheel nothing else.
+    for role in template.roles:
+        if role.many and role.parent in sizes:
+            sizes[role.parent] = max(sizes[role.parent], sizes[role.name])
     roles: list[Role] = []
     for role in template.roles:
         if not role.many:

@@ -1,8 +1,9 @@
 """Couplings that are not drawn, with their two crossed pins, where a plain hinge in their stead would bind.
 
-What several arms carry (a dozer's blade on its push arms) tilts only if it may turn on each of them both ways. Turned on
-one of them one way only, it does not sway, which its tag link would see to. So a hinge stands in for the coupling of the
-first arm, and a body that no part plays for each further one: for all of them if what keeps it from swaying is drawn.
+What several arms carry (a dozer's blade on its push arms) tilts only if it may turn on each of them both ways. Turned
+on one of them one way only, it does not sway, which its tag link would see to. So a hinge stands in for the coupling
+of the first arm, and a body that no part plays for each further one: for all of them if a strut that keeps it from
+swaying is drawn.
 """
 
 from __future__ import annotations
