@@ -181,16 +181,21 @@ def without_absent_couplings(template: Template, present: Collection[str]) -> Te
     slides = [ends[j.name] for j in known if j.type == "prismatic" and {*ends[j.name]} <= rams & {*present}]
     across = [{*beside(a), *beside(b)} for a, b in slides] + [{*beside(b)} for b in idle & {*present} - rams]
     stands: dict[str, dict[str, str]] = {}
+    partly: set[str] = set()
     for name, role in roles.items():
         held = {b for b in beside(name) if b not in idle}
-        if role.kind or not role.rigid or name in {*present} | idle or len(held) != 2 or not held <= {*present}:
+        if role.kind or not role.rigid or name in {*present} | idle or len(held) != 2:
+            continue
+        if not held <= {*present}:
+            partly |= held
             continue
         loose = [b for b in held if not any(o in present and o not in idle for o in beside(b))]
         usual = [template.usual[b].area if b in template.usual else 0.0 for b in (name, *held)]
         if len(loose) == 1 and usual[0] < min(usual[1:]):
             stands.setdefault(loose[0], {})[name] = next(b for b in held if b != loose[0])
     joints, places = list(template.joints), {}
-    for carried, bearers in stands.items():
+    # Of arms of which one is not drawn nothing is told.
+    for carried, bearers in ((body, own) for body, own in stands.items() if body not in partly):
         turns = all({bearer, carried} in across for bearer in bearers.values())
         joints = [j for j in joints if not bearers.keys() & {*ends.get(j.name, ())}]
         places |= bearers
