@@ -193,7 +193,7 @@ def without_absent_couplings(template: Template, present: Collection[str]) -> Te
         usual = [template.usual[b].area if b in template.usual else 0.0 for b in (name, *held)]
         if len(loose) == 1 and usual[0] < min(usual[1:]):
             stands.setdefault(loose[0], {})[name] = next(b for b in held if b != loose[0])
-    joints, places = list(template.joints), {}
+    joints, places = list(template.joints), dict[str, str]()
     # Of arms of which one is not drawn nothing is told.
     for carried, bearers in ((body, own) for body, own in stands.items() if body not in partly):
         turns = all({bearer, carried} in across for bearer in bearers.values())
