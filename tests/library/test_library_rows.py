@@ -73,6 +73,12 @@ def test_a_row_without_parts_goes_with_its_joints(template: Template) -> None:
     assert [j.name for j in none.joints if "roller" in j.name or "shoe" in j.name] == []
 
 
+def test_a_row_on_the_parts_of_a_row_has_them_though_nothing_else_of_them_is_drawn() -> None:
+    # A public dump truck of three axles: the tyres of the third are drawn, and of its wheels nothing else.
+    truck = expand(choose(load_template("rigid_dump_truck"), {}), {"further_tyre_l": 2})
+    assert [truck.body_of(f"further_tyre_l_{n}") for n in (1, 2)] == ["further_wheel_l_1", "further_wheel_l_2"]
+
+
 def test_open_rows_have_one_joint_less(tmp_path: Path) -> None:
     (tmp_path / "hierarchy.json").write_text(
         json.dumps({"base": {"rigid body": "Y"}, "link[*]": {"rigid body": "Y"}}), encoding="utf-8"

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Sequence
+from collections.abc import Mapping, Sequence
 
 import numpy as np
 
@@ -12,6 +12,7 @@ from yellowiron.library import load_template
 from yellowiron.mechanism import build_mechanism
 from yellowiron.model.alignment import Alignment, PartAssignment
 from yellowiron.model.mechanism import Mechanism
+from yellowiron.model.rows import count_members, expand
 from yellowiron.model.specification import Specifications
 from yellowiron.model.template import choose
 
@@ -23,10 +24,12 @@ def without(
     *,
     upright: Sequence[str] = (),
     sheet: Specifications | None = None,
+    choices: Mapping[str, str] | None = None,
 ) -> Mechanism:
     """The machine as its parts truly move, those of bodies with such a word in their names left out; `upright` slides
     go straight up."""
-    template = choose(load_template(kind), {})
+    chosen = choose(load_template(kind), choices or {})
+    template = expand(chosen, count_members([role for role, _ in machine.truth.values()], chosen))
     parts = [
         PartAssignment(part.id, role or None, body or None, 1.0, "drawn")
         for part in machine.parts for role, body in [machine.truth[part.id]]

@@ -61,6 +61,7 @@ MEC050  a limit names a specification that is not known; the joint is not limite
 MEC070  hidden wheels stand for a row of which no part is there; they are left out
 MEC071  hidden wheels would weigh more than the body that carries the track; it keeps its mass besides
 MEC072  tracks and frame are drawn in one: the track is what stands on the ground on its side
+MEC073  what holds a ball is not all drawn: it turns only as what is drawn moves it
 MEC080  how many of the joints that the file declares agree with those found, and how well
 MEC081  a joint that the file declares differs from the one found, or none was found between its bodies
 MEC082  joints that the file declares and that cannot be compared: a body of theirs draws nothing

@@ -20,8 +20,10 @@ from yellowiron.mechanism.bodies.choice import Choice
 from yellowiron.mechanism.bodies.hidden_knuckles import with_knuckles
 from yellowiron.mechanism.bodies.hidden_wheels import hidden_wheels, with_wheels
 from yellowiron.mechanism.joints import chains
+from yellowiron.mechanism.joints.couplings import with_hidden_couplings
 from yellowiron.mechanism.joints.followers import with_followers
 from yellowiron.mechanism.joints.frames import JointFrame, joint_frames, weld
+from yellowiron.mechanism.joints.held_balls import with_held_balls
 from yellowiron.mechanism.joints.kingpins import with_kingpins
 from yellowiron.mechanism.joints.planarity import follow_first, make_parallel
 from yellowiron.mechanism.joints.tree import Tree, links, loop_groups, loose_bodies, planar_loops
@@ -81,6 +83,9 @@ def build_mechanism(
     frames = without_cylinders(template, frames, standing or {})
     template = cylinders.with_leaders(template, frames, findings)
     template, frames, direct, knuckles = with_kingpins(whole, template, frames, placement, findings)
+    template, frames, couplings = with_hidden_couplings(whole, template, frames, placement)
+    template, frames, crosses = with_held_balls(template, frames, findings)
+    knuckles |= couplings | crosses
     template, hinges = with_direct_hinges(template, frames, placement, standing or {}, findings)
     direct |= hinges
 
@@ -185,16 +190,32 @@ def _as_drawn(template: Template, placement: Placement, findings: list[Finding])
     """The template without axles, frames and slideways that are not drawn (`as_drawn`), with a finding for each."""
     names = [r.name for r in template.roles if r.rigid]
     merged = as_drawn(template, [name for name in names if placement.has_body(name)])
-    merged_away = {name for name in names if not merged.role(name).rigid}
+    merged_away = {name for name in names if not merged.role(name).rigid and not placement.has_body(name)}
     rolling = {template.body_of(str(r.parent)) for r in template.roles if r.kind == "wheel" and r.rigid}
     for name in names:
         # What hangs on an axle that is not drawn goes with it.
         if name in merged_away and template.body_of(str(template.role(name).parent)) not in merged_away:
+            onto = merged.body_of(name)
             what = "its wheels turn on" if name in rolling else "it is one with"
             what = "what slides on it slides on" if template.role(name).kind == "arm" else what
-            words = f"No part of the CAD model is '{name}': {what} '{merged.body_of(name)}'."
+            what = _across_coupling(name, template, merged) or f"{what} '{onto}'"
+            words = f"No part of the CAD model is '{name}': {what}."
             findings.append(Finding("MEC017", "warning", name, words, "Give its parts that role in the alignment."))
     return merged
+
+
+def _across_coupling(name: str, template: Template, merged: Template) -> str:
+    """How a coupling that is not drawn has what it joins move, "" for what is no coupling."""
+    known = {j.name for j in template.joints}
+    bearer = str(merged.body_of(name))
+    beside = {str(b) for j in template.joints if name in template.bodies_of(j) for b in template.bodies_of(j)}
+    for joint in (j for j in merged.joints if j.name not in known and bearer in merged.bodies_of(j)):
+        other = next(str(b) for b in merged.bodies_of(joint) if b != bearer)
+        if other in beside:
+            return (
+                f"'{other}' turns on '{bearer}'" if joint.type != "fixed" else f"'{other}' and '{bearer}' move as one"
+            )
+    return ""
 
 
 _IN_WORDS = ("MEC013", "MEC026", "MEC038")

@@ -53,6 +53,10 @@ def expand(template: Template, counts: Mapping[str, int]) -> Template:
     sizes |= {r.name: len(r.hidden["at"]) for r in template.roles if r.many and r.hidden}
     if not sizes:
         return template
+    # A part of a row's part is drawn with it, or alone: a tyre, and of its wheel nothing else.
+    for role in template.roles:
+        if role.many and role.parent in sizes:
+            sizes[role.parent] = max(sizes[role.parent], sizes[role.name])
     roles: list[Role] = []
     for role in template.roles:
         if not role.many:
@@ -100,10 +104,10 @@ def _along(joint: JointTemplate, sizes: Mapping[str, int]) -> tuple[JointTemplat
 def as_drawn(template: Template, present: Collection[str]) -> Template:
     """The template (its variants decided) for a machine of which these bodies are drawn: without absent axles
     (`without_absent_axles`), an absent hitch one with the frame behind it, an absent frame one with the frame that
-    carries it, an absent slideway with what bears it, and what would turn on one pin of an absent body turning on each
-    other."""
+    carries it, an absent slideway with what bears it, what an absent coupling holds on what it is held by
+    (`without_absent_couplings`), and what would turn on one pin of an absent body turning on each other."""
     bare = without_absent_axles(_with_hitches_in_one(template, present), present)
-    return across_absent(_with_bearers_in_one(bare, present), present)
+    return across_absent(without_absent_couplings(_with_bearers_in_one(bare, present), present), present)
 
 
 def _with_hitches_in_one(template: Template, present: Collection[str]) -> Template:
@@ -153,6 +157,60 @@ def _with_bearers_in_one(template: Template, present: Collection[str]) -> Templa
     known = [j for j in template.joints if names_known(j, template)]
     gone = {j.name for j in known if len(set(merged.bodies_of(j))) == 1}
     return replace(merged, joints=tuple(j for j in template.joints if j.name not in gone))
+
+
+def without_absent_couplings(template: Template, present: Collection[str]) -> Template:
+    """The template (its variants decided) without the couplings that are not drawn (the yokes between a dozer's push
+    arms and its blade; usually smaller than either body that they join), where what they carry hangs on nothing else
+    that is drawn but hydraulic cylinders and struts. Where cylinders or struts are drawn between whatever couplings
+    join, these hinge on each other on the couplings' first pins; otherwise they are welded."""
+    roles = {r.name: r for r in template.roles}
+    known = [j for j in template.joints if names_known(j, template)]
+    ends = {j.name: tuple(map(str, template.bodies_of(j))) for j in known}
+    at: dict[str, list[JointTemplate]] = {}
+    for joint in known:
+        for body in {*ends[joint.name]}:
+            at.setdefault(body, []).append(joint)
+
+    def beside(body: str) -> list[str]:
+        return [b for j in at.get(body, []) if j.type != "prismatic" for b in ends[j.name] if b != body]
+
+    rams = {name for name, role in roles.items() if role.kind in ("barrel", "rod")}
+    struts = {b for b, own in at.items() if all(j.type == "spherical" for j in own) and len(own) == 2}
+    idle = rams | {b for b in struts if not roles[b].kind}
+    slides = [ends[j.name] for j in known if j.type == "prismatic" and {*ends[j.name]} <= rams & {*present}]
+    across = [{*beside(a), *beside(b)} for a, b in slides] + [{*beside(b)} for b in idle & {*present} - rams]
+    stands: dict[str, dict[str, str]] = {}
+    partly: set[str] = set()
+    for name, role in roles.items():
+        held = {b for b in beside(name) if b not in idle}
+        if role.kind or not role.rigid or name in {*present} | idle or len(held) != 2:
+            continue
+        if not held <= {*present}:
+            partly |= held
+            continue
+        loose = [b for b in held if not any(o in present and o not in idle for o in beside(b))]
+        usual = [template.usual[b].area if b in template.usual else 0.0 for b in (name, *held)]
+        if len(loose) == 1 and usual[0] < min(usual[1:]):
+            stands.setdefault(loose[0], {})[name] = next(b for b in held if b != loose[0])
+    joints, places = list(template.joints), dict[str, str]()
+    # Of arms of which one is not drawn nothing is told.
+    for carried, bearers in ((body, own) for body, own in stands.items() if body not in partly):
+        turns = all({bearer, carried} in across for bearer in bearers.values())
+        joints = [j for j in joints if not bearers.keys() & {*ends.get(j.name, ())}]
+        places |= bearers
+        for name, bearer in bearers.items():
+            first = next(j for j in at[name] if bearer in ends[j.name])
+            pin = next(part for part in first.parts if part != name)
+            joints.append(
+                replace(first, name=f"{bearer}2{carried}_joint", parts=(carried, pin))
+                if turns
+                else JointTemplate(f"{bearer}2{carried}_joint", "fixed", (carried, bearer))
+            )
+    if not places:
+        return template
+    changed = (replace(r, parent=places[r.name], rigid=False) if r.name in places else r for r in template.roles)
+    return replace(template, roles=tuple(changed), joints=tuple(joints))
 
 
 def across_absent(template: Template, present: Collection[str]) -> Template:

@@ -169,6 +169,8 @@ def _single(
         left = wheels_beside((a, b), template, bodies, frame)
         left = frame.left if left is None else left
         ways = [unit(np.cross(left, frame.up))] if left is not None else ways
+    told = {"lateral": frame.left, "vertical": frame.up, "lengthwise": frame.forward}.get(joint.direction or "")
+    ways = [told] if told is not None else ways
     if not ways:
         ways = [direction_of([joint], template, bodies, {}, frame).vector]
     tried: list[Candidate] = []

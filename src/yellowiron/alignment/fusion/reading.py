@@ -411,7 +411,9 @@ def _solution(structure: Structure, body_of: Mapping[int, str], best: _Best, sta
     slewing = slewing_joints(best.template)
 
     def may_be(joint: JointTemplate, hinge: Hinge) -> bool:
-        _, across, upright = np.abs(stance.rotation @ structure.axes[hinge.axis].direction)
+        along, across, upright = np.abs(stance.rotation @ structure.axes[hinge.axis].direction)
+        if joint.direction is not None and joint.type == "revolute":
+            return bool({"lengthwise": along, "lateral": across, "vertical": upright}[joint.direction] > ALIKE)
         if joint.name in slewing:
             return bool(upright > ALIKE)
         level = linkage_of.get(joint.name) in tools

@@ -35,6 +35,8 @@ from yellowiron.model.template import CylinderTemplate, JointTemplate, Template
 
 TWIN_TYRE = 0.99
 """What reaches this share of a wheel's radius is its other tyre."""
+BESIDE = 0.1
+"""What is this share of a body's size farther from a line than the nearest of it is near that line."""
 RAM = ("barrel", "rod")
 """Kinds of the halves of a cylinder."""
 WHEELS = ("wheel", "sprocket", "idler", "roller", "carrier")
@@ -162,7 +164,19 @@ def _pivot(
     middle = line.at(0.5 * sum(bearing.reach)) if wheel is None else _wheel_middle(placement, wheel, line)
     if joint.type == "spherical" and (eye := eye_middle(placement, bearing, bodies, pins)) is not None:
         middle = eye
+    if joint.type == "spherical" and not pins:
+        middle = _on_its_body(middle, line, placement, max(bodies, key=template.depth))
     return _frame(joint, bodies, placement, bearing, middle, machine_sense(line.direction))
+
+
+def _on_its_body(point: Floats, line: Axis, placement: Placement, body: str) -> Floats:
+    """A ball's middle on a line: where the body reaches near that line, in the middle if the point is beside it (what
+    is round about the line of twins may be the other's)."""
+    points = placement.points_of(placement.rows_of_body(body))
+    off = line.distance(points)
+    along = line.along(points[off <= off.min() + BESIDE * float(np.linalg.norm(np.ptp(points, axis=0)))])
+    low, high = float(along.min()), float(along.max())
+    return point if low <= float(line.along(point[None])[0]) <= high else line.at(0.5 * (low + high))
 
 
 def _slide(
