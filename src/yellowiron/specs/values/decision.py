@@ -74,6 +74,8 @@ def decide(wanted: Wanted, matches: Sequence[Match], sheets: Sheets, config: str
         doubt = doubt or f"only part of the label says {wanted.name}"
     if not top.claim.statement.proven:
         doubt = doubt or "its words do not stand together in the page's text"
+    if top.claim.statement.slipped and not quantity.unit_printed:
+        doubt = doubt or f"its table prints the units a row too high or too low; '{quantity.unit}' fits the label"
     if is_broken_off(top.claim.statement.label):
         doubt = doubt or "its label goes on elsewhere"
     if any(map(is_measures, top.claim.statement.column)):
@@ -409,7 +411,7 @@ def settled(wanted: Wanted, claim: Claim) -> tuple[Quantity, str]:
     return quantity, doubt
 
 
-_SLIPS = {"m": "mm", "mm": "m", "t": "kg", "kg": "t"}
+_SLIPS = {"m": "mm", "mm": "m", "t": "kg", "kg": "t", "m/s": "mm/s", "N": "kN"}
 """Units that makers print for each other by mistake."""
 
 
