@@ -281,6 +281,8 @@ _NOT_A_VALUE = re.compile(
 )
 
 
+_IN_CAPITALS = re.compile(r"^\d[\d.,]*\s?(?:KG|MM|KW|HP|PS|BAR|RPM|MPA|KN)$")
+"""A value whose unit is set in capitals, and no designation: "6900KG"."""
 _DESIGNED = re.compile(r"^(?=[^Øø⌀φΦ]*\d)[^a-zØø⌀φΦぁ-ヺ㐀-鿿]*[Øø⌀φΦ]\s?\d")
 """A diameter behind a designation: "IWRC 6×WS(26) φ10mm×129m"."""
 
@@ -290,7 +292,7 @@ def looks_like_value(text: str) -> bool:
     """Whether a piece of text is a value rather than a label: it begins with a number and is mostly numbers."""
     if _DESIGNED.match(text):
         return True
-    if not _VALUE_START.match(text) or _NOT_A_VALUE.match(text):
+    if not _VALUE_START.match(text) or (_NOT_A_VALUE.match(text) and not _IN_CAPITALS.match(text)):
         return False
     readings = read(text)
     if not readings:
@@ -364,7 +366,8 @@ def without_key(label: str) -> str:
     """A label without its drawing's letter key: "B Hinge pin height", "f. Hinge pin height", "F hinge pin height"
     → "Hinge pin height"."""
     match = re.match(
-        r"^\(?(?:[A-Z]{1,2}[′'\"]?|[a-zα-ω](?=\d?[.):]*\s+[A-ZÀ-Ý])\d?|\d{1,2}(?:\.\d{1,2})*)[.):]*\s+(?=[A-ZÀ-Ý(](?:-[^\W\d_])?[^\W\d_]+|(?<=[B-HJ-NP-Z] )[a-z]{4}|[\u3040-\u30ff\u3400-\u9fff])(.+)$",
+        r"^\(?(?:[A-Z]{1,2}[′'\"]?|[a-zα-ω](?=\d?[.):]*\s+[A-ZÀ-Ý])\d?|\d{1,2}(?:\.\d{1,2})*)"
+        r"[.):]*\s+(?=[A-ZÀ-Ý(](?:-[^\W\d_])?[^\W\d_]+|(?<=[B-HJ-NP-Z] )[a-z]{4}|[\u3040-\u30ff\u3400-\u9fff])(.+)$",
         label,
     )
     return match.group(1) if match else label

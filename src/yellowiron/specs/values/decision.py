@@ -52,7 +52,7 @@ def decide(wanted: Wanted, matches: Sequence[Match], sheets: Sheets, config: str
     whole = [m for m in matches if not is_broken_off(m.claim.statement.label)]
     chosen = _without_charts(_configured(whole or matches, sheets, config))
     groups = _groups(wanted, chosen)
-    said, counted = None, ""
+    said, counted, beside = None, "", list[Match]()
     if len(groups) > 1:
         said, chosen = _as_stated(wanted, chosen, sheets)
         groups = _groups(wanted, chosen)
@@ -62,6 +62,9 @@ def decide(wanted: Wanted, matches: Sequence[Match], sheets: Sheets, config: str
         counted = f"the rows count {len(groups)} values up or down, of which this is the last"
         if not greatest:
             greatest, counted = called(every), f"of {len(groups)} values, this is what the sheet calls so"
+        if not greatest and len(own := _first_of_two(groups)) == 1:
+            greatest, counted = own, f"the sheet prints '{own[0].claim.statement.text}', of which this is the first"
+            beside = [m for m in every if m is not own[0]]
         if not greatest or not all(same(greatest[0].claim.quantity, m.claim.quantity) for m in greatest):
             return _conflict(wanted, groups, sheets, config)
         groups = [greatest]
@@ -95,8 +98,18 @@ def decide(wanted: Wanted, matches: Sequence[Match], sheets: Sheets, config: str
         confidence=round(min(top.score, DOUBTFUL if doubt else 1.0), 3),
         reason=doubt or _reason(top, group) + (f"; page {said.page} says: “{said.sentence}”" if said else ""),
         hint=check_hint(wanted.name) if doubt else "",
-        candidates=(_candidate(top, sheets, value),),
+        candidates=(
+            _candidate(top, sheets, value),
+            *(_candidate(m, sheets, m.claim.quantity.si_value) for m in beside),
+        ),
     )
+
+
+def _first_of_two(groups: Sequence[Sequence[Match]]) -> list[Match]:
+    """The first of two numbers that stand with a slash in one cell, where nothing else is said; [] otherwise."""
+    every = sorted((m for group in groups for m in group), key=lambda m: m.claim.quantity.start)
+    paired = len(every) == 2 and all(m.claim.ranged for m in every)
+    return every[:1] if paired and every[0].claim.statement is every[1].claim.statement else []
 
 
 def is_broken_off(label: str) -> bool:

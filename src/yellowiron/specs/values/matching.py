@@ -197,7 +197,27 @@ def _with_words(texts: tuple[str, ...]) -> tuple[tuple[str, frozenset[str]], ...
 
 def _said(claim: Claim) -> _Said:
     statement = claim.statement
-    return _cut(claim.words, claim.head, statement.column, statement.context, statement.section)
+    said = _cut(claim.words, claim.head, statement.column, statement.context, statement.section)
+    return _geared(said) if claim.quantity.dimension == "speed" else said
+
+
+_GEAR = {"gear", "shift", "forward", "reverse", "r", "only"}
+"""What rows are called that count speeds, beside their number: "4th gear (forward only)", "R"."""
+_GEARED = {"gear", "shift", "speed", "transmission"}
+
+
+@functools.lru_cache(maxsize=4096)
+def _geared(said: _Said) -> _Said:
+    """What a row says that is called by its gear alone, in a list of speeds or gears: that it is a travel speed, or one
+    in reverse."""
+    words = {t for t in said.label if not _is_number(t)}
+    counted = len(words) < len(said.label) or "r" in words
+    told = "forward" in said.label | said.head and not {"gear", "shift"} & words  # that says it itself
+    above = said.label | said.head | said.context | said.section
+    if not counted or told or not words <= _GEAR or not _GEARED & above:
+        return said
+    reverse = {"reverse"} if words & {"r", "reverse"} else set()
+    return replace(said, label=frozenset({"travel", "speed", *reverse}))
 
 
 @functools.lru_cache(maxsize=4096)

@@ -64,9 +64,14 @@ def _count(found: Match) -> int | None:
 
 def called(matches: Sequence[Match]) -> list[Match]:
     """Of values that differ, those whose own label says the extreme that the value's name says: of a "maximum lifting
-    capacity" and a "crane capacity" the former; of forces, which are printed for their maximum, the one called so."""
+    capacity" and a "crane capacity" the former; of forces, which are printed for their maximum, the one called so; of
+    gross powers by two standards, the one by SAE J1995."""
     own = [m for m in matches if {"maximum", "minimum"} & _extremes_meant(m) & {*tokens(m.claim.words)}]
+    own = own or [m for m in matches if "gross" in tokens(m.wanted.name) and _SAE_GROSS.search(m.claim.words)]
     return own if len(own) < len(matches) else []
+
+
+_SAE_GROSS = re.compile(r"J\s?1995", re.IGNORECASE)
 
 
 def _extremes_meant(found: Match) -> set[str]:
