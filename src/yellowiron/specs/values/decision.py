@@ -17,7 +17,7 @@ from yellowiron.specs.pages.strokes import Box
 from yellowiron.specs.values.claims import Claim, configured_by, names_model, split_phrases, without_case
 from yellowiron.specs.values.contention import Match
 from yellowiron.specs.values.requested import check_hint, hint_for, usual
-from yellowiron.specs.values.series import called, extremes
+from yellowiron.specs.values.series import called, extremes, first_of_two
 from yellowiron.specs.values.stated_configuration import Stated
 from yellowiron.specs.values.tolerances import DOUBTFUL, SURE
 from yellowiron.support.units import SI_UNIT
@@ -62,7 +62,7 @@ def decide(wanted: Wanted, matches: Sequence[Match], sheets: Sheets, config: str
         counted = f"the rows count {len(groups)} values up or down, of which this is the last"
         if not greatest:
             greatest, counted = called(every), f"of {len(groups)} values, this is what the sheet calls so"
-        if not greatest and len(own := _first_of_two(groups)) == 1:
+        if not greatest and len(own := first_of_two(every)) == 1:
             greatest, counted = own, f"the sheet prints '{own[0].claim.statement.text}', of which this is the first"
             beside = [m for m in every if m is not own[0]]
         if not greatest or not all(same(greatest[0].claim.quantity, m.claim.quantity) for m in greatest):
@@ -103,13 +103,6 @@ def decide(wanted: Wanted, matches: Sequence[Match], sheets: Sheets, config: str
             *(_candidate(m, sheets, m.claim.quantity.si_value) for m in beside),
         ),
     )
-
-
-def _first_of_two(groups: Sequence[Sequence[Match]]) -> list[Match]:
-    """The first of two numbers that stand with a slash in one cell, where nothing else is said; [] otherwise."""
-    every = sorted((m for group in groups for m in group), key=lambda m: m.claim.quantity.start)
-    paired = len(every) == 2 and all(m.claim.ranged for m in every)
-    return every[:1] if paired and every[0].claim.statement is every[1].claim.statement else []
 
 
 def is_broken_off(label: str) -> bool:

@@ -77,3 +77,16 @@ _SAE_GROSS = re.compile(r"J\s?1995", re.IGNORECASE)
 def _extremes_meant(found: Match) -> set[str]:
     name = set(tokens(found.wanted.name))
     return name if found.wanted.dimension != "force" or "minimum" in name else name | {"maximum"}
+
+
+_PAIRED = {"front", "rear", "loaded", "empty"}
+"""What two numbers with a slash are printed for in this order, also where the label names the first alone."""
+
+
+def first_of_two(matches: Sequence[Match]) -> list[Match]:
+    """The first of two numbers that stand with a slash in one cell under a label that names one of two opposites, which
+    is the one that is wanted: "axle load, front: 2978 / 3252"; [] otherwise."""
+    every = sorted(matches, key=lambda m: m.claim.quantity.start)
+    named = [_PAIRED & {*tokens(m.wanted.name)} & {*tokens(m.claim.words)} for m in every]
+    paired = len(every) == 2 and all(m.claim.ranged for m in every) and all(named)
+    return every[:1] if paired and every[0].claim.statement is every[1].claim.statement else []
