@@ -64,9 +64,10 @@ def decide(wanted: Wanted, matches: Sequence[Match], sheets: Sheets, config: str
             greatest, counted = called(every), f"of {len(groups)} values, this is what the sheet calls so"
         if not greatest and len(own := first_of_two(every)) == 1:
             greatest, counted = own, f"the sheet prints '{own[0].claim.statement.text}', of which this is the first"
-            beside = [m for m in every if m is not own[0]]
         if not greatest or not all(same(greatest[0].claim.quantity, m.claim.quantity) for m in greatest):
             return _conflict(wanted, groups, sheets, config)
+        if not counted.startswith("the rows count"):  # what another reader reads the same is not settled by that
+            beside = [max(g, key=_preference) for g in groups if not any(m is one for m in g for one in greatest)]
         groups = [greatest]
     group = groups[0]
     top = max(group, key=_preference)
