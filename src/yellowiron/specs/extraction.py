@@ -19,7 +19,7 @@ from yellowiron.specs.language.decimal_style import DecimalStyle, decimal_style
 from yellowiron.specs.layout.nearest import Near
 from yellowiron.specs.llm.agreement import Asked, agreed
 from yellowiron.specs.llm.page_reader import Reading, pages_of, read_pages
-from yellowiron.specs.machines import of_others, several, with_machines
+from yellowiron.specs.machines import of_others, of_sisters, several, with_machines
 from yellowiron.specs.reader import MEMORY_MB, RESIDENT_MB, TIMEOUT_S, Sheet, check_file
 from yellowiron.specs.values.claims import Claim, claims_of, configured
 from yellowiron.specs.values.cross_check import second_reading, stands_in
@@ -212,6 +212,7 @@ def _claimed(sheets: Sequence[Sheet], config: str) -> _Claimed:
             (recognised if claim.statement.guessed else printed).append(claim)
         kept = {claim.statement for claim in meant}
         others = [claim.statement for claim in every if claim.statement not in kept]
+        other |= of_sisters(sheet.titles, config)
         own = [
             n
             for n in sheet.near

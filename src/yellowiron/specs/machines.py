@@ -5,6 +5,7 @@ from __future__ import annotations
 import re
 from collections.abc import Sequence
 from dataclasses import replace
+from itertools import pairwise
 
 from yellowiron.specs.layout.rows.headings import body_size
 from yellowiron.specs.layout.statement import Statement
@@ -19,6 +20,8 @@ _LARGE = 1.3
 """Times the size of most characters: a title."""
 _FEWEST = 2
 """Pages that make a sheet of its own."""
+_FEWEST_EQUAL = 3
+"""Sheets of equal length, bound one behind the other."""
 
 
 def titled(page: Page) -> frozenset[str]:
@@ -81,6 +84,19 @@ def _titled_alone(titles: Sequence[frozenset[str]]) -> dict[int, str]:
         for page, name in alone.items()
         if any(_family(one) == _family(name) and not _same(one, name) for one in alone.values())
     }
+
+
+def of_sisters(titles: Sequence[frozenset[str]], config: str) -> frozenset[int]:
+    """The pages whose title names another machine than the one that `config` names and that other pages' titles name,
+    also in a brochure of both; with those that go on with them, where the sheets are of equal length."""
+    pages = _titled_alone(titles)
+    begins = sorted(pages)
+    length, *others = {b - a for a, b in pairwise(begins)} or {0}
+    if len(begins) >= _FEWEST_EQUAL and not others:  # sheets of so many pages each, one behind the other
+        going_on = {page + k: pages[page] for page in begins for k in range(1, length)}
+        pages |= {page: name for page, name in going_on.items() if page <= len(titles) and not titles[page - 1]}
+    asked = {_plain(phrase) for phrase in split_phrases(config)} & {_plain(name) for name in pages.values()}
+    return frozenset(page for page, name in pages.items() if asked and _plain(name) not in asked)
 
 
 def _owners(titles: Sequence[frozenset[str]], families: set[str]) -> dict[int, frozenset[str]]:

@@ -25,7 +25,7 @@ from openai.types.chat import ChatCompletion
 from yellowiron.endpoint import Endpoint
 from yellowiron.specs.language.numbers import read
 from yellowiron.specs.language.vocabulary import tokens
-from yellowiron.specs.layout.statement import is_unit
+from yellowiron.specs.layout.statement import is_unit, unit_in_label
 from yellowiron.specs.values.claims import BARE_UNITS
 from yellowiron.support.units import SI_UNIT, parse_quantity
 
@@ -173,7 +173,7 @@ def entry(question: Question, asked: Asked, pair: Pair, **other: Any) -> Entry:
     if not beside and at + 1 == len(row) and pair.cell.text.endswith(pair.number):
         following = [c for c in question.cells if c.line == pair.cell.line + 1][:1]
         beside = [c for c in following if is_unit(c.text.split()[0])]
-    headed = [c for c in question.above(pair.cell) if re.search(r"[(\[][^()]{1,8}[)\]]$", c.text)][:1]
+    headed = [c for c in question.above(pair.cell) if is_unit(c.text) or unit_in_label(c.text)[1]][:1]
     bare = not re.search(r"\d\s*[^\W\d]|[°\"']", pair.cell.text)
     said = {
         "name": asked.name, "value_cell": pair.cell.number, "value": pair.number, "label_cells": [pair.label.number],

@@ -95,7 +95,8 @@ class Statement:
     are the lines over the column as printed, for a quote that needs them. `proven`: whether each part of the quote
     stands together in the file's own text; `running`: whether it is said in a sentence; `guessed`: whether it was read
     from the page's picture. `sheet` is the number of its sheet among those read together, from 0. `key` is the number
-    of its row and how many there are ("12/58"), where the page's rows are counted.
+    of its row and how many there are ("12/58"), where the page's rows are counted. `slipped`: whether its unit stands
+    one row too high or too low.
     """
 
     page: int
@@ -117,6 +118,7 @@ class Statement:
     guessed: bool = False
     sheet: int = 0
     key: str = ""
+    slipped: bool = False
 
 
 def joined(texts: Iterable[str]) -> str:
@@ -279,6 +281,8 @@ _NOT_A_VALUE = re.compile(
 )
 
 
+_IN_CAPITALS = re.compile(r"^\d[\d.,]*\s?(?:KG|MM|KW|HP|PS|BAR|RPM|MPA|KN)$")
+"""A value whose unit is set in capitals, and no designation: "6900KG"."""
 _DESIGNED = re.compile(r"^(?=[^Øø⌀φΦ]*\d)[^a-zØø⌀φΦぁ-ヺ㐀-鿿]*[Øø⌀φΦ]\s?\d")
 """A diameter behind a designation: "IWRC 6×WS(26) φ10mm×129m"."""
 
@@ -288,7 +292,7 @@ def looks_like_value(text: str) -> bool:
     """Whether a piece of text is a value rather than a label: it begins with a number and is mostly numbers."""
     if _DESIGNED.match(text):
         return True
-    if not _VALUE_START.match(text) or _NOT_A_VALUE.match(text):
+    if not _VALUE_START.match(text) or (_NOT_A_VALUE.match(text) and not _IN_CAPITALS.match(text)):
         return False
     readings = read(text)
     if not readings:
@@ -359,9 +363,11 @@ _FEWEST_KEYS = 3
 
 
 def without_key(label: str) -> str:
-    """A label without its drawing's letter key: "B Hinge pin height", "f. Hinge pin height" → "Hinge pin height"."""
+    """A label without its drawing's letter key: "B Hinge pin height", "f. Hinge pin height", "F hinge pin height"
+    → "Hinge pin height"."""
     match = re.match(
-        r"^\(?(?:[A-Z]{1,2}[′'\"]?|[a-zα-ω](?=\d?[.):]*\s+[A-ZÀ-Ý])\d?|\d{1,2}(?:\.\d{1,2})*)[.):]*\s+(?=[A-ZÀ-Ý(](?:-[^\W\d_])?[^\W\d_]+|[\u3040-\u30ff\u3400-\u9fff])(.+)$",
+        r"^\(?(?:[A-Z]{1,2}[′'\"]?|[a-zα-ω](?=\d?[.):]*\s+[A-ZÀ-Ý])\d?|\d{1,2}(?:\.\d{1,2})*)"
+        r"[.):]*\s+(?=[A-ZÀ-Ý(](?:-[^\W\d_])?[^\W\d_]+|(?<=[B-HJ-NP-Z] )[a-z]{4}|[\u3040-\u30ff\u3400-\u9fff])(.+)$",
         label,
     )
     return match.group(1) if match else label

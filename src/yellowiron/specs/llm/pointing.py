@@ -187,7 +187,7 @@ def _is_own(label: Cell, value: Cell, cells: Sequence[Cell]) -> bool:
 
 def _is_words(cell: Cell, value: Cell) -> bool:
     """Whether a cell is words, and no value beside one that has words of its own ("6 x 19 IWRC ø10 mm")."""
-    if cell.kind != "text" or is_key(cell.bare):
+    if cell.kind != "text" or is_key(cell.bare) or is_key(unit_in_label(cell.bare)[0]):  # "h1", "b 10 (mm)"
         return False
     return value.kind != "text" or not any(q.unit for r in read(cell.text) for q in r.numbers)
 

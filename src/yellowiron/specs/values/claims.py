@@ -14,7 +14,7 @@ from yellowiron.specs.language.quantities import FEET_DASH, FEET_INCHES, Quantit
 from yellowiron.specs.language.units import printed_unit
 from yellowiron.specs.language.vocabulary import tokens
 from yellowiron.specs.layout.statement import COUNTED, GRAVITATIONAL, Statement
-from yellowiron.specs.values.enumerations import COUNTED_PARTS, alternatives, enumerated, opposed
+from yellowiron.specs.values.enumerations import COUNTED_PARTS, alternatives, enumerated, opposed, standard_of_two
 
 _TIMES = re.compile(r"(?<![\d.,])([2-9])\s*[x×](?![\w])|[x×]\s*([2-9])(?![\d.,])", re.IGNORECASE)
 
@@ -273,7 +273,7 @@ def _labels_of_each(text: str, label: str, readings: Sequence[Reading], kept: Se
     if not kept or len(kept) != len(readings) or any(len(r.numbers) != 1 or len(r.partner) > 1 for r in kept):
         return whole
     if len(kept) == 1:
-        return [[label, *opposed(label)]]
+        return [[label, *(opposed(label) or standard_of_two(label))]]
     ends = [max(q.end for q in (*r.numbers, *r.partner)) for r in kept]
     between = [text[end : r.numbers[0].start] for end, r in zip(ends, kept[1:], strict=False)]
     if not all(re.fullmatch(r"[^\W\d()]*\)?\s*[/／]\s*[+]?", part.strip()) for part in between):

@@ -2,10 +2,12 @@
 
 from __future__ import annotations
 
-from collections.abc import Sequence
+import re
+from collections.abc import Mapping, Sequence
 from dataclasses import dataclass, replace
 
 from yellowiron.model.template import Wanted
+from yellowiron.specs.language.vocabulary import tokens
 from yellowiron.specs.values.claims import Claim, names_model
 from yellowiron.specs.values.requested import usual
 
@@ -25,6 +27,36 @@ class Match:
     lost: float = 0.0
     by_label: bool = True
     by_head: bool = False
+
+
+_GEAR = {"gear", "shift", "reverse", "r"}
+_NUMBERED = re.compile(r"\d")
+_FEWEST_GEARS = 3
+
+
+def is_gear(words: str) -> bool:
+    """Whether a row is called by its gear, and no more: "4th gear", "2", "R"."""
+    said = tokens(words)
+    named = {t for t in said if not _NUMBERED.search(t)}
+    return bool(said) and named <= _GEAR and (len(named) < len(said) or "r" in named)
+
+
+def without_lone_gears(found: Mapping[str, list[Match]]) -> None:
+    """Takes off the speeds of rows that are called by their gears where the page does not count three: one alone says
+    nothing of the greatest speed."""
+    speeds = [m for own in found.values() for m in own if m.wanted.dimension == "speed" and "gear" in m.rest]
+    geared = [m for m in speeds if is_gear(m.claim.words) and not m.by_head]
+    counts: dict[tuple[object, ...], set[str]] = {}
+    for one in geared:
+        counts.setdefault(_list_of(one), set()).update(t for t in tokens(one.claim.words) if _NUMBERED.search(t))
+    lone = {id(m) for m in geared if len(counts[_list_of(m)]) < _FEWEST_GEARS}
+    for own in found.values():
+        own[:] = [m for m in own if id(m) not in lone]
+
+
+def _list_of(found: Match) -> tuple[object, ...]:
+    statement = found.claim.statement
+    return (statement.sheet, statement.page, statement.section)
 
 
 def is_possible(found: Match) -> bool:

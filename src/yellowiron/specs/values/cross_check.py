@@ -145,7 +145,8 @@ def _is_sure(found: Match, side: Side) -> bool:
     if side == "cell" and unsaid in tokens(found.claim.words) and unsaid not in tokens(found.claim.statement.label):
         statement, phrase = found.claim.statement, set(tokens(found.phrase)) - {unsaid}
         label = set(tokens(statement.label)) if statement.label else {t for h in statement.column for t in tokens(h)}
-        headed = bool(statement.label) and any(KNOWN & set(tokens(h)) for h in (*statement.column, *statement.context))
+        above = [h for h in (*statement.column, *statement.context) if h != statement.text]
+        headed = bool(statement.label) and any(KNOWN & set(tokens(h)) for h in above)
         clear = (
             clear and not headed and bool(label) and (label <= phrase or (statement.running and bool(label & phrase)))
         )

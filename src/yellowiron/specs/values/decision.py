@@ -17,7 +17,7 @@ from yellowiron.specs.pages.strokes import Box
 from yellowiron.specs.values.claims import Claim, configured_by, names_model, split_phrases, without_case
 from yellowiron.specs.values.contention import Match
 from yellowiron.specs.values.requested import check_hint, hint_for, usual
-from yellowiron.specs.values.series import called, extremes
+from yellowiron.specs.values.series import called, extremes, first_of_two
 from yellowiron.specs.values.stated_configuration import Stated
 from yellowiron.specs.values.tolerances import DOUBTFUL, SURE
 from yellowiron.support.units import SI_UNIT
@@ -52,7 +52,7 @@ def decide(wanted: Wanted, matches: Sequence[Match], sheets: Sheets, config: str
     whole = [m for m in matches if not is_broken_off(m.claim.statement.label)]
     chosen = _without_charts(_configured(whole or matches, sheets, config))
     groups = _groups(wanted, chosen)
-    said, counted = None, ""
+    said, counted, beside = None, "", list[Match]()
     if len(groups) > 1:
         said, chosen = _as_stated(wanted, chosen, sheets)
         groups = _groups(wanted, chosen)
@@ -62,8 +62,12 @@ def decide(wanted: Wanted, matches: Sequence[Match], sheets: Sheets, config: str
         counted = f"the rows count {len(groups)} values up or down, of which this is the last"
         if not greatest:
             greatest, counted = called(every), f"of {len(groups)} values, this is what the sheet calls so"
+        if not greatest and len(own := first_of_two(every)) == 1:
+            greatest, counted = own, f"the sheet prints '{own[0].claim.statement.text}', of which this is the first"
         if not greatest or not all(same(greatest[0].claim.quantity, m.claim.quantity) for m in greatest):
             return _conflict(wanted, groups, sheets, config)
+        if not counted.startswith("the rows count"):  # what another reader reads the same is not settled by that
+            beside = [max(g, key=_preference) for g in groups if not any(m is one for m in g for one in greatest)]
         groups = [greatest]
     group = groups[0]
     top = max(group, key=_preference)
@@ -74,6 +78,8 @@ def decide(wanted: Wanted, matches: Sequence[Match], sheets: Sheets, config: str
         doubt = doubt or f"only part of the label says {wanted.name}"
     if not top.claim.statement.proven:
         doubt = doubt or "its words do not stand together in the page's text"
+    if top.claim.statement.slipped and not quantity.unit_printed:
+        doubt = doubt or f"its table prints the units a row too high or too low; '{quantity.unit}' fits the label"
     if is_broken_off(top.claim.statement.label):
         doubt = doubt or "its label goes on elsewhere"
     if any(map(is_measures, top.claim.statement.column)):
@@ -93,7 +99,10 @@ def decide(wanted: Wanted, matches: Sequence[Match], sheets: Sheets, config: str
         confidence=round(min(top.score, DOUBTFUL if doubt else 1.0), 3),
         reason=doubt or _reason(top, group) + (f"; page {said.page} says: “{said.sentence}”" if said else ""),
         hint=check_hint(wanted.name) if doubt else "",
-        candidates=(_candidate(top, sheets, value),),
+        candidates=(
+            _candidate(top, sheets, value),
+            *(_candidate(m, sheets, m.claim.quantity.si_value) for m in beside),
+        ),
     )
 
 
@@ -409,7 +418,7 @@ def settled(wanted: Wanted, claim: Claim) -> tuple[Quantity, str]:
     return quantity, doubt
 
 
-_SLIPS = {"m": "mm", "mm": "m", "t": "kg", "kg": "t"}
+_SLIPS = {"m": "mm", "mm": "m", "t": "kg", "kg": "t", "m/s": "mm/s", "N": "kN"}
 """Units that makers print for each other by mistake."""
 
 

@@ -88,6 +88,13 @@ def opposed(label: str) -> list[str]:
     return alternatives(label, 2) if apart else []
 
 
+def standard_of_two(label: str) -> list[str]:
+    """The label of one number under what names the standard and something else: "Overall width, standard / dual" is
+    the standard's; [] for other labels."""
+    first, second = alternatives(label, 2) or ("", "")
+    return [first] if "standard" in set(tokens(first)) - set(tokens(second)) else []
+
+
 def _with_shared(parts: list[str]) -> list[str]:
     """Two alternatives, of which the second is one word: what stands before its opposite holds for both
     ("backwards laden", "unladen")."""

@@ -27,7 +27,15 @@ from yellowiron.specs.language.vocabulary import (
     tokens,
 )
 from yellowiron.specs.values.claims import Claim, names_model
-from yellowiron.specs.values.contention import Match, add_twins, ends_told_apart, is_possible, without_shared_headings
+from yellowiron.specs.values.contention import (
+    Match,
+    add_twins,
+    ends_told_apart,
+    is_gear,
+    is_possible,
+    without_lone_gears,
+    without_shared_headings,
+)
 from yellowiron.specs.values.requested import phrases
 from yellowiron.specs.values.tolerances import LEAST
 
@@ -84,6 +92,7 @@ def match(claims: Sequence[Claim], wanted: Sequence[Wanted]) -> dict[str, list[M
             unsaid = len(kept) > 1 and (_EXTREME & set(tokens(one.wanted.name))) - said.label - said.head - said.context
             found[one.wanted.name].append(replace(one, score=one.score - _UNSAID) if unsaid else one)
     add_twins(found, claims)
+    without_lone_gears(found)
     return ends_told_apart({name: without_shared_headings(own) for name, own in found.items()}, wanted)
 
 
@@ -197,7 +206,22 @@ def _with_words(texts: tuple[str, ...]) -> tuple[tuple[str, frozenset[str]], ...
 
 def _said(claim: Claim) -> _Said:
     statement = claim.statement
-    return _cut(claim.words, claim.head, statement.column, statement.context, statement.section)
+    said = _cut(claim.words, claim.head, statement.column, statement.context, statement.section)
+    return _geared(said, claim.words) if claim.quantity.dimension == "speed" else said
+
+
+def _geared(said: _Said, words: str) -> _Said:
+    """What a row says that is called by its gear alone, in a list of speeds or gears: that it is the travel speed of a
+    gear, or one in reverse."""
+    above = said.label | said.head | said.context | said.section
+    if not is_gear(words) or not _GEARED & above or ("forward" in above and "gear" not in said.label):
+        return said
+    reverse = {"reverse"} if said.label & {"r", "reverse"} else set()
+    return replace(said, label=frozenset({"travel", "speed", "gear", *reverse}))
+
+
+_GEARED = {"gear", "shift", "speed", "transmission"}
+"""What heads rows that are called by their gears."""
 
 
 @functools.lru_cache(maxsize=4096)

@@ -11,6 +11,8 @@ from yellowiron.specs.values.contention import Match
 
 _ORDINAL = re.compile(r"(\d{1,2})(?:st|nd|rd|th|er|era|ere|eme|da|ra|ta|to|do|o|a|e)?")
 _LEAST_COUNTED = 3
+_GEARS = {"gear", "shift"}
+"""What counts speeds: the travel speed is that of the highest, also of two."""
 
 
 def extremes(matches: Sequence[Match], value: Callable[[Match], float]) -> list[Match]:
@@ -27,13 +29,14 @@ def extremes(matches: Sequence[Match], value: Callable[[Match], float]) -> list[
         statement = one.claim.statement
         place = (statement.sheet, statement.page, statement.column, statement.section)
         columns.setdefault(place, {}).setdefault(count, []).append(one)
-    meant = _meant(matches)
+    geared = counted and all(m.wanted.dimension == "speed" and _GEARS & {*tokens(m.claim.words)} for m in matches)
+    meant = _meant(matches) or ("maximum" if geared else None)
     found: list[Match] = []
     for rows in columns.values():
         values = [[value(m) for m in rows[count]] for count in sorted(rows)]
         rises = all(max(a) < min(b) or (not counted and a == b) for a, b in pairwise(values))
         falls = all(min(a) > max(b) for a, b in pairwise(values))
-        if meant is None or len(rows) < _LEAST_COUNTED or not (rises or falls):
+        if meant is None or len(rows) < (2 if geared else _LEAST_COUNTED) or not (rises or falls):
             return []
         found += rows[max(rows) if rises == (meant == "maximum") else min(rows)]
     return found
@@ -61,6 +64,29 @@ def _count(found: Match) -> int | None:
 
 def called(matches: Sequence[Match]) -> list[Match]:
     """Of values that differ, those whose own label says the extreme that the value's name says: of a "maximum lifting
-    capacity" and a "crane capacity" the former."""
-    own = [m for m in matches if {"maximum", "minimum"} & {*tokens(m.wanted.name)} & {*tokens(m.claim.words)}]
+    capacity" and a "crane capacity" the former; of forces, which are printed for their maximum, the one called so; of
+    gross powers by two standards, the one by SAE J1995."""
+    own = [m for m in matches if {"maximum", "minimum"} & _extremes_meant(m) & {*tokens(m.claim.words)}]
+    own = own or [m for m in matches if "gross" in tokens(m.wanted.name) and _SAE_GROSS.search(m.claim.words)]
     return own if len(own) < len(matches) else []
+
+
+_SAE_GROSS = re.compile(r"J\s?1995", re.IGNORECASE)
+
+
+def _extremes_meant(found: Match) -> set[str]:
+    name = set(tokens(found.wanted.name))
+    return name if found.wanted.dimension != "force" or "minimum" in name else name | {"maximum"}
+
+
+_PAIRED = {"front", "rear", "loaded", "empty"}
+"""What two numbers with a slash are printed for in this order, also where the label names the first alone."""
+
+
+def first_of_two(matches: Sequence[Match]) -> list[Match]:
+    """The first of two numbers that stand with a slash in one cell under a label that names one of two opposites, which
+    is the one that is wanted: "axle load, front: 2978 / 3252"; [] otherwise."""
+    every = sorted(matches, key=lambda m: m.claim.quantity.start)
+    named = [_PAIRED & {*tokens(m.wanted.name)} & {*tokens(m.claim.words)} for m in every]
+    paired = len(every) == 2 and all(m.claim.ranged for m in every) and all(named)
+    return every[:1] if paired and every[0].claim.statement is every[1].claim.statement else []

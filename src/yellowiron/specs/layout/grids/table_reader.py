@@ -8,6 +8,7 @@ from dataclasses import dataclass, replace
 from itertools import pairwise
 
 from yellowiron.specs.language.vocabulary import CIRCUITS, tokens
+from yellowiron.specs.layout.grids.slipped_units import units_in_their_rows
 from yellowiron.specs.layout.grids.table_grid import Cell, TableGrid
 from yellowiron.specs.layout.rows.cells import marked_by_footnote
 from yellowiron.specs.layout.rows.headings import in_capitals, names_models, names_no_columns
@@ -54,7 +55,7 @@ def read_grid(
     """The statements of a table: a value's label is the words to its left, its column the heads above; `above` are
     heads that stand over the table, outside of it."""
     found: list[Statement] = []
-    grid = _with_names_carried(_without_keys(grid))
+    grid, slipped = units_in_their_rows(_with_names_carried(_without_keys(grid)))
     heads = _head_rows(page, grid)
     naming = frozenset(heads)
     titles = _titles(grid)
@@ -110,7 +111,7 @@ def read_grid(
         if above and not heads:
             own = [_headed(f, above) for f in own]
         found.extend(own)
-    return found
+    return [replace(f, slipped=f.row - first_row in slipped) for f in found] if slipped else found
 
 
 def _sentences(
