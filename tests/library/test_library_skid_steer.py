@@ -3,12 +3,13 @@
 from __future__ import annotations
 
 import itertools
+from dataclasses import replace
 
 import pytest
 
 from yellowiron import library
 from yellowiron.alignment.assignment.weights import interchangeable
-from yellowiron.model.template import Template, choose
+from yellowiron.model.template import Role, Template, choose
 
 PATHS, TILTS = ("vertical", "radial"), ("twin", "single")
 
@@ -34,6 +35,32 @@ def test_vertical_lift_has_links_and_radial_lift_a_pivot(template: Template) -> 
         assert ("boom_pin" in roles) == (path == "radial")
         barrels = [r.name for r in chosen.roles if r.kind == "barrel"]
         assert len(barrels) == (4 if tilt == "twin" else 3)
+
+
+def test_links_on_either_side_that_are_said_to_be_two_bodies_are_told_to_be_one(template: Template) -> None:
+    """However the links are drawn, one on either side is one body; two hold the arms twice."""
+    assert not any(r.side for r in template.roles if "link" in r.name)
+
+    def split(name: str, side: str) -> str:
+        return name.replace("_link", f"_link_{side}")
+
+    def sides(name: str) -> tuple[str, ...]:
+        return tuple("lr") if "_link" in name else ("",)
+
+    def half(role: Role, side: str) -> Role:
+        return replace(role, name=split(role.name, side), side=side, parent=split(role.parent or "", side) or None)
+
+    roles = tuple(half(r, side) if side else r for r in template.roles for side in sides(r.name))
+    joints = tuple(
+        replace(j, name=split(j.name, side), parts=tuple(split(p, side) for p in j.parts)) if side else j
+        for j in template.joints
+        for side in sides(j.name)
+    )
+    report = library.lint(replace(template, roles=roles, joints=joints, measurements=(), sensors=(), tests=()))
+    (error,) = (f for f in report.findings if f.severity == "error")
+    assert error.code == "TPL002" and "boom is locked" in error.message
+    assert "'front_link' for 'front_link_l' and 'front_link_r'" in error.hint
+    assert "'rear_link' for 'rear_link_l' and 'rear_link_r'" in error.hint and "knuckle" not in error.hint
 
 
 def test_the_bucket_rolls_back_as_its_cylinders_retract(template: Template) -> None:

@@ -84,7 +84,8 @@ def _cylinder(
     slide = cylinder.slide
     if slide not in joints or _missing_parts(template, joints[slide]):
         return
-    if joints[slide].drive is None:
+    led = cylinder.passive and joints[slide].follows is not None
+    if joints[slide].drive is None and not led:
         yield Finding(
             "TPL006", "error", actuator, f"Its slide '{slide}' has no drive.", 'Give it "Drive": ["Linear Drive"].'
         )
@@ -104,7 +105,7 @@ def _cylinder(
             between = " and ".join(f"'{b}'" for b in sorted(str(b) for b in ends))
             words = f"The ram of '{pair[0]}' and '{pair[1]}' is not between {between}, which '{slide}' joins."
             yield Finding("TPL006", "error", actuator, words, "Name its barrel and its rod, one on each of the two.")
-    if cylinder.passive and not cylinder.pins:
+    if cylinder.passive and not cylinder.pins and not led:
         words = f"The cylinder '{slide}' is passive and has no pins: nothing else moves its slide."
         yield Finding("TPL006", "error", actuator, words, "Name it among the 'rams' of the driven one.")
     for pivot in cylinder.pins:

@@ -63,8 +63,8 @@ def _gains(template: Template) -> Iterator[Finding]:
 
 
 def _driven_followers(template: Template) -> Iterator[Finding]:
-    """Joints that follow another and that an actuator names."""
-    named = {c.slide: a.name for a in template.actuators for c in a.cylinders}
+    """Joints that follow another and that an actuator drives; a cylinder on one that no lever moves is all right."""
+    named = {c.slide: a.name for a in template.actuators for c in a.cylinders if not c.passive}
     named |= {joint: a.name for a in template.actuators for joint in a.joints}
     for joint in template.joints:
         if joint.follows is not None and joint.name in named:

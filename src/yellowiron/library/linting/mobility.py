@@ -15,6 +15,7 @@ from typing import NamedTuple
 import numpy as np
 
 from yellowiron.library.linting.generic_placement import placed
+from yellowiron.library.linting.halves import halves_of_one
 from yellowiron.model.geometry import Floats
 from yellowiron.model.rows import split_index
 from yellowiron.model.template import JointTemplate, Template
@@ -38,7 +39,8 @@ class Group:
 
     Of a `spatial` group `grubler` is the count 6(n−1) − Σ(6−f). Its `idle` links spin about their own line: `computed`
     is without these. `superfluous`: joint → what would do in its place ("": nothing); `unlocking`: changes of type that
-    would let a locked one move."""
+    would let a locked one move. `halves`: pairs of bodies, left and right, that would let a locked planar one move if
+    each pair were one body."""
 
     bodies: tuple[str, ...]
     joints: tuple[str, ...]
@@ -50,6 +52,7 @@ class Group:
     idle: tuple[IdleLink, ...] = ()
     superfluous: Mapping[str, str] = field(default_factory=dict)
     unlocking: tuple[Mapping[str, str], ...] = ()
+    halves: tuple[tuple[str, str], ...] = ()
 
 
 @dataclass(frozen=True)
@@ -99,7 +102,8 @@ def mobility(template: Template, choices: Mapping[str, str]) -> TemplateMobility
         free = _generic_freedom(bodies, members, ends, held=led)
         given = frozenset(names) & frozenset(coordinates)
         left = _generic_freedom(bodies, members, ends, held=given | led)
-        groups.append(Group(bodies, names, count, free, len(given), left))
+        halves = _halves(template, members, ends, given, led) if free < len(given) else ()
+        groups.append(Group(bodies, names, count, free, len(given), left, halves=halves))
         computed += free
         planar += count
     bodies = tuple(dict.fromkeys(b for pair in ends.values() for b in pair))
@@ -137,6 +141,22 @@ def _spatial_group(
     elif free > count:
         redundant = in_space.superfluous(joints)
     return Group(bodies, names, count, free, expected, left, True, idle, redundant, unlocking)
+
+
+def _halves(
+    template: Template,
+    members: Sequence[JointTemplate],
+    ends: Mapping[str, tuple[str, str]],
+    given: frozenset[str],
+    led: frozenset[str],
+) -> tuple[tuple[str, str], ...]:
+    """The halves of a locked planar group that move as one: so told, it moves as often as it is driven or free."""
+
+    def moves(kept: Sequence[JointTemplate], merged: Mapping[str, tuple[str, str]]) -> bool:
+        bodies = tuple(dict.fromkeys(b for j in kept for b in merged[j.name]))
+        return _generic_freedom(bodies, kept, merged, held=led) == sum(j.name in given for j in kept)
+
+    return halves_of_one(template, members, ends, moves)
 
 
 def _coordinates_of(template: Template) -> tuple[str, ...]:

@@ -58,6 +58,10 @@ def movement(template: Template, group: Group) -> Iterator[Finding]:
             listed = " and ".join(f"from '{frame}' to '{part}'" for frame, part in pivots)
             message += f": there is no pivot {listed}, and a part without a joint to its frame is welded to it"
             hint = "Add " + ", ".join(f"{frame}2{part}_joint" for frame, part in pivots) + ": Revolute."
+        elif group.halves:
+            listed = ", ".join(f"'{left[:-2]}' for '{left}' and '{right}'" for left, right in group.halves)
+            message += ": left and right halves that move as one are held twice"
+            hint = f"Say that they are one body, without a side, in however many pieces it is drawn: {listed}."
         else:
             hint = _freeing(group) or "A pivot is missing, or a joint is there twice: " + ", ".join(group.joints) + "."
         yield Finding("TPL002", "error", template.root, f"{message}.", hint)

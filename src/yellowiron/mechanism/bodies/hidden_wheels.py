@@ -42,6 +42,8 @@ FLAT = 1e-6
 """Metres: what is no higher is no track."""
 LEFT_OVER = 0.02
 """The least share of its mass that the body a track moves with keeps."""
+_NARROWEST = 0.5
+"""A pad is no narrower than this share of its wheels' radius; tracks are one to two of them wide."""
 
 
 @dataclass(frozen=True, eq=False)
@@ -249,7 +251,9 @@ def _pad(carrier: str, side: Sequence[HiddenWheel], bodies: Mapping[str, Body]) 
     bottom, top = float(lowest.center[2]) - lowest.radius, float(lowest.center[2])
     first, last = float(centers[:, 0].min()), float(centers[:, 0].max())
     center = clean_triple([0.5 * (first + last), float(centers[:, 1].mean()), 0.5 * (bottom + top)])
-    size = clean_triple([max(last - first, lowest.radius), lowest.width, top - bottom])
+    # Of a belt that is drawn as a line of corners, nothing says how wide it is.
+    width = max(lowest.width, _NARROWEST * lowest.radius)
+    size = clean_triple([max(last - first, lowest.radius), width, top - bottom])
     name = f"{carrier}_pad_{'l' if center[1] > 0.0 else 'r'}"
     return BodyShape(name, center, 0.5 * max(size), bodies[lowest.role].shapes[0].material, size)
 

@@ -1,0 +1,90 @@
+"""Machines with two steered axles, built with every steering mode: which way their wheels turn in MuJoCo."""
+
+from __future__ import annotations
+
+import itertools
+import pickle
+from pathlib import Path
+
+import numpy as np
+import pytest
+from in_engines import load
+
+from kit.builds import MadeOnce, reading_once, without_pages
+from kit.machines.drawn_examples import build_example, drawn_example
+from yellowiron.model.mechanism import Actuator, Mechanism
+from yellowiron.pipeline import Machine, build
+from yellowiron.simulation.engine import Setup, poses
+from yellowiron.simulation.registry import ENGINES
+
+pytestmark = pytest.mark.slow
+
+EXAMPLES = {"telehandler": "two", "mobile_crane": "working"}
+PUSHED = 0.03
+"""Metres that a lever draws the rod: ten degrees and more at these knuckles."""
+
+
+@pytest.fixture(scope="module", params=[*itertools.product(EXAMPLES, ("front", "all", "crab"))], ids="_".join)
+def steered(request: pytest.FixtureRequest, made_once: MadeOnce) -> tuple[str, Machine]:
+    """A steering mode, and an example built with it."""
+    name, mode = request.param
+    drawing = drawn_example(name, made_once, EXAMPLES[name])
+    known = build_example(name, drawing, made_once, named=True).machine
+    if mode == "front":
+        return mode, known
+
+    def fill(out: Path) -> None:
+        out.mkdir()
+        with without_pages(), reading_once(made_once, drawing):
+            machine = build(
+                name, drawing / f"{name}.step", out / "out", sheets=[drawing / "specifications.pdf"],
+                settings=[f"steering_mode={mode}"], alignment_file=known.folder / "alignment.json",
+            )  # fmt: skip
+        (out / "machine.pickle").write_bytes(pickle.dumps(machine))
+
+    return mode, pickle.loads((made_once(f"{drawing.name}_{mode}", fill) / "machine.pickle").read_bytes())
+
+
+def test_wheels_turn_the_way_the_mode_says(steered: tuple[str, Machine]) -> None:
+    mode, machine = steered
+    assert [f for f in machine.mechanism.findings if f.severity != "info"] == []
+    rear = next(c for c in machine.mechanism.cylinders if c.name == "rear_steering_cylinder")
+    assert rear.passive is (mode != "front") and rear.rod_diameter is not None
+    levers = {a.name: a for a in machine.mechanism.actuators if "steering" in a.name}
+    assert set(levers) == ({"steering", "rear_steering"} if mode == "front" else {"steering"})
+    left = _turned(machine, levers["steering"], PUSHED)
+    assert all(angle > 5.0 for end, angle in left.items() if end.startswith("front")), left
+    rear = [angle for end, angle in left.items() if end.startswith("rear")]
+    if mode == "front":
+        assert np.abs(rear).max() < 0.05
+        own = _turned(machine, levers["rear_steering"], PUSHED)
+        assert all((angle < -5.0) if end.startswith("rear") else abs(angle) < 0.05 for end, angle in own.items()), own
+    else:
+        way = -1.0 if mode == "all" else 1.0
+        assert all(way * angle > 5.0 for angle in rear), left
+        # Both axles have one linkage. Crabbing, the wheels of a side stay parallel; where all steer, the rear rod goes
+        # the other way, and so the one on the left does what the one on the right does in front.
+        for side, other in ("lr", "rl"):
+            ahead = left[f"front_knuckle_{side}"] if mode == "crab" else -left[f"front_knuckle_{other}"]
+            assert left[f"rear_knuckle_{side}"] == pytest.approx(ahead, abs=0.2), left
+
+
+def _turned(machine: Machine, lever: Actuator, by: float) -> dict[str, float]:
+    """Degrees to the left by which each knuckle has turned after its lever, in metres of the rod, came to rest."""
+    mechanism: Mechanism = machine.mechanism
+    (joint,) = lever.joints
+    step = ENGINES["mujoco"].timestep
+    loaded = load("mujoco", Setup(machine.usd, mechanism, "fixed", step, (joint.joint,)))
+    try:
+        ramp = joint.sign * by * np.clip(np.arange(1, round(4.0 / step)) * step / 2.0, 0.0, 1.0)
+        for _ in loaded.targets((joint.joint,), ramp[:, None]):
+            loaded.step()
+        rotations, _ = poses(loaded)
+    finally:
+        loaded.close()
+    names = [body.name for body in mechanism.bodies]
+    return {
+        name: float(np.degrees(np.arctan2(*rotations[k, (1, 0), 0])))
+        for k, name in enumerate(names)
+        if "knuckle" in name
+    }
