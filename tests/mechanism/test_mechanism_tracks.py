@@ -148,21 +148,33 @@ def _sided(template: Template) -> Template:
     return replace(template, roles=tuple(replace(r, side=r.name[-1]) if r.hidden else r for r in template.roles))
 
 
-def test_a_flat_thing_is_no_track(drawn: Crawler, template: Template) -> None:
-    """What was found to be the undercarriage may be a disc, or a face of something else."""
+def _with_undercarriage(drawn: Crawler, corners: np.ndarray) -> Crawler:
+    """The machine on quadrilaterals (n × 4, 3) instead of its undercarriage and tracks."""
     moved = {p.part: p.body for p in drawn.aligned(shoes=False).parts}
     assembly = drawn.assembly()
-    below = [p for p in assembly.parts if moved[p.id] == "undercarriage"]
-    one = Crawler(drawn.shoes, [p for p in assembly.parts if p not in below], {**assembly.shapes})
+    kept = [p for p in assembly.parts if moved[p.id] != "undercarriage"]
+    one = Crawler(drawn.shoes, kept, {**assembly.shapes})
     one.truth = {p.id: drawn.truth[p.id] for p in one.parts}
+    first = np.arange(0, len(corners), 4)[:, None, None]
+    faces = (first + np.array([[0, 1, 2], [0, 2, 3]])).reshape(-1, 3).astype(np.int32)
+    one.add("sheet", "undercarriage", shape_of(Mesh(corners, faces), "sheet"), np.eye(4))
+    return one
+
+
+def test_a_track_drawn_as_a_line_has_a_pad_of_a_width(drawn: Crawler, template: Template) -> None:
+    """A box without one is none: MuJoCo refused the whole machine."""
+    ends = np.array([[-2.0, 0.0, 0.0], [2.0, 0.0, 0.0], [2.0, 0.0, 0.8], [-2.0, 0.0, 0.8]])
+    corners = np.concatenate([ends + np.array([0.0, y, 0.0]) for y in (1.2, -1.2)])
+    found = build(_with_undercarriage(drawn, corners), _sided(template), "belt")
+    pads = [pad for body in found.bodies for pad in body.pads]
+    assert [pad.name for pad in pads] == ["undercarriage_pad_l", "undercarriage_pad_r"]
+    assert all(size > 0.1 for pad in pads for size in pad.size or ())
+
+
+def test_a_flat_thing_is_no_track(drawn: Crawler, template: Template) -> None:
+    """What was found to be the undercarriage may be a disc, or a face of something else."""
     corners = np.array([[-2.0, -1.5, 0.0], [2.0, -1.5, 0.0], [2.0, 1.5, 0.0], [-2.0, 1.5, 0.0]])
-    one.add(
-        "disc",
-        "undercarriage",
-        shape_of(Mesh(corners, np.array([[0, 1, 2], [0, 2, 3]], dtype=np.int32)), "disc"),
-        np.eye(4),
-    )
-    found = build(one, _sided(template), "belt")
+    found = build(_with_undercarriage(drawn, corners), _sided(template), "belt")
     assert {f.where for f in found.findings if f.code == "MEC070"} == {"track_wheel_l", "track_wheel_r"}
     assert not [b.name for b in found.bodies if "track_wheel" in b.name]
 
