@@ -6,6 +6,7 @@ import contextlib
 import os
 import pickle
 import resource
+import signal
 import subprocess
 import sys
 import time
@@ -107,10 +108,15 @@ def test_what_goes_round_in_a_circle_is_ended() -> None:
 
 
 def test_what_ends_in_time_may_go_on() -> None:
-    before = resource.getrlimit(resource.RLIMIT_CPU)
+    """Also in a process that has run for long: the limit was held against all of its time, by another clock."""
     with must_end(3600.0):
-        assert resource.getrlimit(resource.RLIMIT_CPU) != before
-    assert resource.getrlimit(resource.RLIMIT_CPU) == before
+        assert 3500.0 < signal.getitimer(signal.ITIMER_PROF)[0] <= 3601.0
+        with must_end(60.0):
+            assert signal.getitimer(signal.ITIMER_PROF)[0] <= 61.0
+        assert 3500.0 < signal.getitimer(signal.ITIMER_PROF)[0] <= 3601.0
+        with must_end(7200.0):
+            assert signal.getitimer(signal.ITIMER_PROF)[0] <= 3601.0
+    assert signal.getitimer(signal.ITIMER_PROF)[0] == 0.0
 
 
 WINDOWS = """
@@ -123,7 +129,7 @@ class Absent(importlib.abc.MetaPathFinder):
 
 sys.meta_path.insert(0, Absent())
 sys.platform = "win32"
-del os.EX_IOERR, os.killpg, signal.SIGKILL, signal.SIGXCPU
+del os.EX_IOERR, os.killpg, signal.SIGKILL, signal.SIGPROF, signal.setitimer, signal.getitimer
 """
 """What makes a process see what there is on Windows, as far as the guard could use it."""
 

@@ -173,7 +173,7 @@ def beat(words: str = "") -> None:
 
 
 def _obituary(who: str, returncode: int, noise: bytes) -> str:
-    if returncode == -signal.SIGXCPU:
+    if returncode == -signal.SIGPROF:
         return f"{who} came to no end"
     if returncode < 0:
         name = signal.Signals(-returncode).name if -returncode in signal.valid_signals() else str(-returncode)
