@@ -22,9 +22,10 @@ ENGINE = ("Net Power", "Engine Power", "Gross Power")
 """Specifications that say what the engine has, the first that is known."""
 TO_OIL = 0.85
 """Of the engine's power, what reaches the oil."""
-CUSHION, CREEPING = 0.06, 0.1
-"""Metres before its ends (at most the second of its stroke) over which a cylinder's own throttles slow it evenly, and
-to which share of its speed. They are 40 to 80 mm long on booms and arms."""
+CUSHION = 0.06
+"""Metres before its ends over which a cylinder's own throttles slow it evenly: 40 to 80 mm on booms and arms."""
+_LONGEST_CUSHION, _CREEPING = 0.1, 0.1
+"""… and at most so much of its stroke; it gets there with so much of its speed."""
 
 
 @dataclass(frozen=True)
@@ -87,7 +88,7 @@ class Hydraulics:
         self._targets: dict[str, float] = {}
         self._strokes: dict[str, float] = {}
         self.speeds: Mapping[str, float] = dict.fromkeys(self.circuits, 0.0)
-        """Actuator → the speed that its oil gives it, m/s of its slide, at the last step."""
+        """Actuator → the speed that its oil gives it, m/s of its slide, at the last step; less in its cushions."""
 
     def step(
         self,
@@ -165,9 +166,9 @@ class Hydraulics:
 
     def _cushioned(self, circuit: Circuit, target: float, speed: float) -> float:
         """The share of its speed that is left to a cylinder so far from the end that it goes to: evenly slowed."""
-        length = min(self._cushion, CREEPING * (circuit.upper - circuit.lower))
+        length = min(self._cushion, _LONGEST_CUSHION * (circuit.upper - circuit.lower))
         room = circuit.upper - target if speed > 0.0 else target - circuit.lower
-        return max(CREEPING, math.sqrt(max(room, 0.0) / length)) if room < length else 1.0
+        return max(_CREEPING, math.sqrt(max(room, 0.0) / length)) if room < length else 1.0
 
 
 def _circuit(mechanism: Mechanism, actuator: Actuator) -> Circuit | None:

@@ -108,8 +108,8 @@ def must_end(seconds: float) -> Iterator[None]:
     """Ends the process, a guarded child, where what is inside takes more than so many seconds of the processor: for
     readers that go round in a circle on some damage, and whose time is known from the file's size.
 
-    By a timer, and not by `RLIMIT_CPU`: the kernel holds that against its ticks since the process began, which in a
-    process of some minutes are many seconds ahead of what it says of its time."""
+    By a timer, which counts from now, and not by `RLIMIT_CPU`, which counts since the process began: one that had
+    worked for a quarter of an hour was twice ended there long before that."""
     if resource is None:
         yield
         return
