@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Sequence
+from collections.abc import Mapping, Sequence
 from dataclasses import dataclass, field
 
 import numpy as np
@@ -11,6 +11,13 @@ from numpy.typing import NDArray
 Floats = NDArray[np.float64]
 Ints = NDArray[np.int32]
 Color = tuple[float, float, float]
+
+DIRECTIONS: Mapping[str, Floats] = {
+    "lengthwise": np.array([1.0, 0.0, 0.0]),
+    "lateral": np.array([0.0, 1.0, 0.0]),
+    "vertical": np.array([0.0, 0.0, 1.0]),
+}
+"""What templates call a joint's direction (`JointTemplate.direction`), in the machine's frame."""
 
 
 def linear(srgb: Sequence[float]) -> Color:

@@ -32,7 +32,7 @@ from yellowiron.usd.authoring.stage import (
     set_placement,
 )
 from yellowiron.usd.layers.actuation import limited
-from yellowiron.usd.layers.drives import INSTANCES, per_usd_unit, speed_limits, to_usd_unit
+from yellowiron.usd.layers.drives import INSTANCES, per_usd_unit, physx_names, speed_limits, speed_names, to_usd_unit
 from yellowiron.usd.layers.joints import usd_type
 from yellowiron.usd.layers.mujoco import armature
 from yellowiron.usd.layers.sensors import sensor_quaternion
@@ -248,7 +248,7 @@ def _write_joint(
         _write_drive(over(layer, _on(prims, path)), new, old, new.drive, inertias)
         if not all(map(_near, speed_limits(old), speed_limits(new))):
             for spec, limit in limited(layer, _on(prims, prims.root), _on(prims, path), new):
-                for name in (*(f"{s}:maxJointVelocity" for s in _physx(new)), "newton:velocityLimit"):
+                for name in speed_names(new):
                     set_attribute(spec, name, Types.Float, float(limit))
         for kind, place in prims.servos.get(new.name, ()):
             if new.drive.rated:
@@ -286,11 +286,6 @@ def _write_anchor(layer: Sdf.Layer, joint: Joint, variant: Mechanism, prims: Mac
             set_attribute(spec, f"physics:localPos{side}", Types.Point3f, place)
 
 
-def _physx(joint: Joint) -> tuple[str, str]:
-    """How the names of a joint's attributes begin in PhysX's two schemas."""
-    return "physxJoint", f"physxJointAxis:{INSTANCES[joint.type]}"
-
-
 def _write_drive(spec: Sdf.PrimSpec, joint: Joint, old: Joint, drive: Drive, inertias: tuple[float, float]) -> None:
     """Gains, force and armature, those that are others, in all the words that the base has for them.
     `inertias`: what Newton has for the armature, before and after."""
@@ -298,12 +293,11 @@ def _write_drive(spec: Sdf.PrimSpec, joint: Joint, old: Joint, drive: Drive, ine
     before = old.drive
     assert before is not None
     gains = f"drive:{instance}:physics"
-    physx = _physx(joint)
     said = [
         ((f"{gains}:damping",), before.damping * factor, drive.damping * factor),
         ((f"{gains}:stiffness",), before.stiffness * factor, drive.stiffness * factor),
         ((f"{gains}:maxForce",), before.strongest, drive.strongest),
-        (tuple(f"{s}:armature" for s in physx), before.armature, drive.armature),
+        (physx_names(joint, "armature"), before.armature, drive.armature),
         (("newton:armature",), *inertias),
     ]
     for names, one, other in said:

@@ -11,16 +11,11 @@ from collections.abc import Mapping, Sequence
 
 import numpy as np
 
-from yellowiron.model.geometry import Floats
+from yellowiron.model.geometry import DIRECTIONS, Floats
 from yellowiron.model.rows import split_index
 from yellowiron.model.template import JointTemplate, Template
 from yellowiron.support.spatial import SpatialJoint
 
-_DIRECTIONS: Mapping[str | None, Floats] = {
-    "lengthwise": np.array([1.0, 0.0, 0.0]),
-    "lateral": np.array([0.0, 1.0, 0.0]),
-    "vertical": np.array([0.0, 0.0, 1.0]),
-}
 _MIRROR = np.array([1.0, -1.0, 1.0])
 
 
@@ -40,7 +35,7 @@ def placed(
             anchor, axis = random.uniform(-1.0, 1.0, 3), _unit(random.normal(size=3))
         else:
             anchor, axis = anchor * _MIRROR, axis * _MIRROR
-        at[joint.name] = (anchor, _DIRECTIONS.get(joint.direction, axis))
+        at[joint.name] = (anchor, DIRECTIONS.get(joint.direction or "", axis))
     for joint in joints:
         if joint.type == "prismatic" and joint.direction is None:
             at[joint.name] = (at[joint.name][0], _between_pins(joint, joints, ends, at))

@@ -16,11 +16,11 @@ import numpy as np
 from yellowiron.mechanism.bodies.hidden_knuckles import HiddenKnuckle
 from yellowiron.mechanism.joints.frames import JointFrame
 from yellowiron.mechanism.placement import Placement
+from yellowiron.model.geometry import DIRECTIONS
 from yellowiron.model.rows import names_known
 from yellowiron.model.template import JointTemplate, Template
 from yellowiron.support.vectors import unit
 
-_WAYS = {"lengthwise": (1.0, 0.0, 0.0), "lateral": (0.0, 1.0, 0.0), "vertical": (0.0, 0.0, 1.0)}
 _CROSSED = 0.5
 """Pins cross if the one is across the other by this share of its length."""
 
@@ -52,7 +52,7 @@ def with_hidden_couplings(
             seen.add(carried)
             continue
         bearer = next(b for b in frame.bodies if b != carried)
-        way = np.array(_WAYS[second.direction or "vertical"])
+        way = DIRECTIONS[second.direction or "vertical"]
         across = way - float(way @ frame.axis) * frame.axis
         if np.linalg.norm(across) < _CROSSED:
             continue

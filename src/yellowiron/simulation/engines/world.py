@@ -29,7 +29,7 @@ from yellowiron.usd.authoring.stage import (
     set_attribute,
     set_targets,
 )
-from yellowiron.usd.layers.drives import INSTANCES, speed_limits, write_drive
+from yellowiron.usd.layers.drives import speed_limits, speed_names, write_drive
 from yellowiron.usd.layers.physics import write_mass
 from yellowiron.usd.layers.physx import ITERATIONS, LOOPS_LAST, iterations, loops_last
 from yellowiron.usd.layers.servos import DAMPER, SERVO
@@ -157,10 +157,8 @@ def _write_drive(spec: Sdf.PrimSpec, joint: Joint) -> None:
     if joint.drive is None:
         return
     write_drive(spec, joint, joint.drive)
-    velocity, instance = min(*speed_limits(joint), _UNLIMITED), INSTANCES[joint.type]
-    for name in ("physxJoint", f"physxJointAxis:{instance}"):
-        set_attribute(spec, f"{name}:maxJointVelocity", Types.Float, velocity)
-    set_attribute(spec, "newton:velocityLimit", Types.Float, velocity)
+    for name in speed_names(joint):
+        set_attribute(spec, name, Types.Float, min(*speed_limits(joint), _UNLIMITED))
 
 
 def _make_collider(spec: Sdf.PrimSpec) -> None:

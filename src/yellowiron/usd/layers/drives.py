@@ -24,6 +24,16 @@ def to_usd_unit(joint_type: str) -> float:
     return math.degrees(1.0) if joint_type == "revolute" else 1.0
 
 
+def physx_names(joint: Joint, name: str) -> tuple[str, str]:
+    """What PhysX calls a value of a joint's one axis, in both schemas that know it: the newer one may be missing."""
+    return f"physxJoint:{name}", f"physxJointAxis:{INSTANCES[joint.type]}:{name}"
+
+
+def speed_names(joint: Joint) -> tuple[str, ...]:
+    """What engines call a joint's largest speed."""
+    return *physx_names(joint, "maxJointVelocity"), "newton:velocityLimit"
+
+
 def speed_limits(joint: Joint) -> tuple[float, float]:
     """The largest speed of a joint's coordinate the slower and the faster way, in metres or degrees a second, and a
     little to catch up by; infinite where there is none."""

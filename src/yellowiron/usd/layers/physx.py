@@ -14,7 +14,7 @@ from yellowiron.support.record import ENDLESS
 from yellowiron.usd.authoring.stage import Types, apply_schemas, over, set_attribute
 from yellowiron.usd.layers.actuation import limited
 from yellowiron.usd.layers.articulation import articulation_roots
-from yellowiron.usd.layers.drives import INSTANCES
+from yellowiron.usd.layers.drives import INSTANCES, physx_names
 from yellowiron.usd.planning.pin_links import slewed_cuts
 from yellowiron.usd.planning.plan import COLLIDERS, MESH, Plan
 
@@ -94,8 +94,6 @@ def write_physx(layer: Sdf.Layer, base: Sdf.Layer, plan: Plan) -> None:
 
 
 def _write_joint(spec: Sdf.PrimSpec, joint: Joint, name: str, value: float) -> None:
-    """A value of a joint's one axis, in both schemas that know it: the newer one may be missing."""
-    instance = INSTANCES[joint.type]
-    apply_schemas(spec, "PhysxJointAPI", f"PhysxJointAxisAPI:{instance}")
-    for schema in ("physxJoint", f"physxJointAxis:{instance}"):
-        set_attribute(spec, f"{schema}:{name}", Types.Float, value)
+    apply_schemas(spec, "PhysxJointAPI", f"PhysxJointAxisAPI:{INSTANCES[joint.type]}")
+    for each in physx_names(joint, name):
+        set_attribute(spec, each, Types.Float, value)
