@@ -26,7 +26,7 @@ from typing import Any
 import mujoco
 import numpy as np
 
-from bench_physics import EXAMPLES, built
+from plain import built
 from yellowiron.hydraulics import Hydraulics
 from yellowiron.kinematics import State
 from yellowiron.kinematics.measuring.bench import Bench
@@ -58,7 +58,7 @@ def main() -> None:
     files = parser.parse_args().files
     print("| machine | what | sheet | through the oil | | by hand | |\n|---|---|---|---|---|---|---|")
     with tempfile.TemporaryDirectory() as folder:
-        for file in files or [built(name, Path(folder)) for name in EXAMPLES]:
+        for file in files or built(Path(folder)):
             bench(file, Path(folder, f"{file.parent.name}.mjcf"))
 
 

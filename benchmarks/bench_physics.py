@@ -22,13 +22,12 @@ from pathlib import Path
 import mujoco
 import numpy as np
 
+from plain import built, set_brakes
 from yellowiron.hydraulics import Hydraulics
 from yellowiron.kinematics.strength import rated_load
 from yellowiron.model.mechanism import Mechanism
 from yellowiron.usd import read_mechanism
 
-ROOT = Path(__file__).resolve().parent.parent
-EXAMPLES = ("wheel_loader", "excavator")
 SLOPE = math.radians(20.0)
 POSES = 30
 WALL = 1e12
@@ -45,16 +44,8 @@ def over_files(about: str | None, bench: Callable[[Path, Path], None]) -> None:
     parser.add_argument("files", nargs="*", type=Path)
     files = parser.parse_args().files
     with tempfile.TemporaryDirectory() as folder:
-        for file in files or [built(name, Path(folder)) for name in EXAMPLES]:
+        for file in files or built(Path(folder)):
             bench(file, Path(folder, f"{file.stem}.mjcf"))
-
-
-def built(name: str, folder: Path) -> Path:
-    example = ROOT / "examples" / name
-    cad, sheet = next(example.glob("*.step")), next(example.glob("*.pdf"))
-    command = [sys.executable, "-m", "yellowiron", "build", name, "--cad", cad, "--specs", sheet]
-    subprocess.run([*command, "--out", folder / name], check=True, capture_output=True)
-    return folder / name / f"{name}.usda"
 
 
 def bench(file: Path, folder: Path) -> None:
@@ -277,17 +268,6 @@ def sinking(scene: Path, mechanism: Mechanism) -> float | None:
             mujoco.mj_step(model, data)
         seen.append(data.qpos[joints].copy())
     return float(np.abs(seen[1] - seen[0]).max())
-
-
-def set_brakes(model: mujoco.MjModel) -> None:
-    for number in range(model.nnumeric):
-        name = model.numeric(number).name
-        if name.endswith(".brake"):
-            dof = int(model.joint(name.removesuffix(".brake")).dofadr[0])
-            model.dof_frictionloss[dof] = float(model.numeric(number).data[0])
-    for number in range(model.ngeom):
-        if model.geom(number).name.endswith(".pad"):
-            model.geom_contype[number] = 1
 
 
 def creep(scene: Path, *, brakes: bool) -> float:

@@ -18,22 +18,20 @@ import json
 import subprocess
 import sys
 import tempfile
-import warnings
 from collections.abc import Callable
 from pathlib import Path
 from typing import Any
 
 import numpy as np
-from pxr import Sdf
 
-from bench_defaults import MACHINE, built, physx_schemas, read, world
+from plain import HZ, Engine, PhysX, World, built, started
 from yellowiron.each_way import EachWay
 from yellowiron.hydraulics import Hydraulics
 from yellowiron.model.mechanism import Drive as Rated
 from yellowiron.model.mechanism import Mechanism
 from yellowiron.usd import read_mechanism
 
-HZ = {"physx": 120.0, "newton": 240.0}
+ENGINES = ("physx", "newton", "mujoco")
 FINE = 1000.0
 """Steps a second of Newton with `--levers`, its integrator Euler's: by its own, drives do work that is lost."""
 REST = 1.0
@@ -48,7 +46,7 @@ Drive = Callable[[np.ndarray], tuple[np.ndarray, np.ndarray]]
 def main() -> None:
     parser = argparse.ArgumentParser(description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter)
     parser.add_argument("files", nargs="*", type=Path)
-    parser.add_argument("--engines", nargs="*", choices=HZ, default=list(HZ))
+    parser.add_argument("--engines", nargs="*", choices=ENGINES, default=list(ENGINES))
     led = parser.add_mutually_exclusive_group()
     led.add_argument("--each-way", action="store_true")
     led.add_argument("--levers", action="store_true")
@@ -59,7 +57,7 @@ def main() -> None:
         print(json.dumps(steps_in(given.one, given.files[0], options)))
         return
     with tempfile.TemporaryDirectory() as folder:
-        for file in given.files or built(Path(folder), None):
+        for file in given.files or built(Path(folder)):
             print(f"\n{file.parent.name}: greatest speed, of rated\n")
             print("| engine | cylinder | retracts | extends |\n|---|---|---|---|")
             for engine in given.engines:
@@ -77,28 +75,17 @@ def main() -> None:
 
 def steps_in(engine: str, file: Path, options: list[str]) -> dict[str, Any]:
     """`speeds`: slide → the greatest of its speeds each way, by its rated ones. `power`: the most of all, W."""
-    warnings.simplefilter("ignore")
-    mechanism = read_mechanism(file)
-    with tempfile.TemporaryDirectory() as folder:
-        stage = world(file, Path(folder) / "world.usda", hz=HZ["physx"])
-        if "--levers" in options:
-            stage.GetPrimAtPath(MACHINE).GetVariantSet("Actuation").SetVariantSelection("hydraulic")
-            integrator = stage.GetPrimAtPath("/World/scene").CreateAttribute(INTEGRATOR, Sdf.ValueTypeNames.Token)
-            integrator.Set("euler")
-        _, slides = read(stage)
-        stage.Save()
-        scene = Path(folder) / "world.usda"
-        if engine == "physx":
-            drive = in_physx(scene, stage, slides, mechanism if "--each-way" in options else None)
-        else:
-            drive = in_newton(scene, slides, FINE if "--levers" in options else HZ[engine])
-    names = [slide.path.rpartition("/")[2] for slide in slides]
+    mechanism, oil = read_mechanism(file), "--levers" in options
+    hz = FINE if oil and engine == "newton" else HZ[engine]
+    variants, told = ({"Actuation": "hydraulic"}, {INTEGRATOR: "euler"}) if oil else ({}, {})
+    at = started(engine, file, World(hz, variants=variants, told=told))
+    drive = stepped(at, mechanism if "--each-way" in options else None)
+    slides, names = at.slides, [slide.name for slide in at.slides]
     rated = [own for name in names if (own := mechanism.joint(name).drive) is not None]
     low, high = np.array([s.lower for s in slides]), np.array([s.upper for s in slides])
     worst = {name: [0.0, 0.0] for name in names}
-    hz = HZ[engine]
-    if "--levers" in options:
-        return by_levers(mechanism, drive, names, rated, engine)
+    if oil:
+        return by_levers(mechanism, drive, names, rated, hz, implicit=engine == "physx")
 
     def go(targets: np.ndarray, seconds: float, watched: int | None = None) -> None:
         for _ in range(round(seconds * hz)):
@@ -126,15 +113,36 @@ def faster(seen: list[float], speed: float, rated: Rated) -> None:
     seen[way] = max(seen[way], abs(speed) / rated.speeds[way])
 
 
-def by_levers(mechanism: Mechanism, drive: Drive, names: list[str], rated: list[Rated], engine: str) -> dict[str, Any]:
+def stepped(engine: Engine, mechanism: Mechanism | None) -> Drive:
+    """Its step; with a mechanism, PhysX is told its limits each way before."""
+    limits = EachWay.of(mechanism, engine.dofs) if mechanism is not None and isinstance(engine, PhysX) else None
+
+    def step(targets: np.ndarray) -> tuple[np.ndarray, np.ndarray]:
+        engine.tell(targets)
+        if limits is not None:
+            assert isinstance(engine, PhysX)
+            at, moving, wanted = (engine.rows[kind] for kind in ("POSITION", "VELOCITY", "POSITION_TARGET"))
+            engine.rows["MAX_FORCE"][:] = limits.forces_now(wanted, at, moving)
+            engine.rows["MAX_VELOCITY"][:] = limits.speeds_now(wanted, at)
+            engine.write("MAX_FORCE")
+            engine.write("MAX_VELOCITY")
+        engine.step()
+        return engine.strokes(), engine.speeds()
+
+    return step
+
+
+def by_levers(
+    mechanism: Mechanism, drive: Drive, names: list[str], rated: list[Rated], hz: float, *, implicit: bool
+) -> dict[str, Any]:
     """What the same come to with levers pushed whole, to one end and to the other: each alone, and all."""
-    hz, implicit = {**HZ, "newton": FINE}[engine], engine == "physx"
     oil = Hydraulics(mechanism, implicit=implicit)
     circuits = {name: circuit for name, circuit in oil.circuits.items() if circuit.slide in names}
     worst, power = {name: [0.0, 0.0] for name in names}, 0.0
     at, forces = np.zeros(len(names)), np.zeros(len(names))
     for pushed in [[name] for name in circuits] + [list(circuits)]:
-        for lever in (1.0, -1.0):
+        # The first way begins in mid-stroke; the third is the same from the other end.
+        for lever in (1.0, -1.0, 1.0):
             for _ in range(round(LONGEST * hz)):
                 known = [dict(zip(names, map(float, each), strict=True)) for each in (at, forces)]
                 told = oil.step(dict.fromkeys(pushed, lever), known[0], 1.0 / hz, forces=known[1])
@@ -154,80 +162,6 @@ def given(rated: Rated, target: float, at: float, speed: float) -> float:
     figures are none: Newton's is before that, and PhysX's what goes through the joint."""
     back, forth = rated.forces
     return max(-back, min(forth, rated.stiffness * (target - at) - rated.damping * speed))
-
-
-def in_physx(file: Path, stage: Any, slides: list[Any], told: Mechanism | None) -> Drive:
-    import newton_usd_schemas  # noqa: F401
-    import ovphysx
-    import ovstage
-    import physx_usd_schemas  # noqa: F401
-    from ovphysx.types import TensorType
-    from pxr import UsdPhysics
-
-    ovphysx.PhysX.set_cpu_mode(True)
-    ovstage.population.register_usd_schemas([*physx_schemas(), str(ovphysx.newton_schema_root())])
-    engine, scene = ovphysx.PhysX(), ovstage.Stage("steps")
-    root = next(str(p.GetPath()) for p in stage.Traverse() if p.HasAPI(UsdPhysics.ArticulationRootAPI))
-    ovstage.population.open_usd(scene, str(file), ordinal=1, domains=ovstage.PopulationDomain.ALL)
-    scene.advance_write_floor(ordinal=1).wait()
-    engine.wait_task(engine.attach_ovstage(scene, read_ordinal=1))
-    engine.step_sync(1.0 / HZ["physx"])
-    kinds = ("POSITION", "VELOCITY", "POSITION_TARGET", "MAX_FORCE", "MAX_VELOCITY")
-    bound = {
-        kind: engine.create_tensor_binding(prim_paths=[root], tensor_type=TensorType[f"ARTICULATION_DOF_{kind}"])
-        for kind in kinds
-    }
-    columns = {name: number for number, name in enumerate(bound["POSITION"].dof_names)}
-    own = [columns[slide.path.rpartition("/")[2]] for slide in slides]
-    rows = {kind: np.zeros(binding.shape, np.float32) for kind, binding in bound.items()}
-    limits = EachWay.of(told, bound["POSITION"].dof_names) if told is not None else None
-
-    def step(targets: np.ndarray) -> tuple[np.ndarray, np.ndarray]:
-        rows["POSITION_TARGET"][0, own] = targets
-        bound["POSITION_TARGET"].write(rows["POSITION_TARGET"])
-        if limits is not None:
-            at, moving, wanted = (rows[kind] for kind in kinds[:3])
-            bound["MAX_FORCE"].write(_finite(limits.forces_now(wanted, at, moving)))
-            bound["MAX_VELOCITY"].write(_finite(limits.speeds_now(wanted, at)))
-        engine.step_sync(1.0 / HZ["physx"])
-        for kind in kinds[:2]:
-            bound[kind].read(rows[kind])
-        return rows["POSITION"][0, own], rows["VELOCITY"][0, own]
-
-    step.held = (engine, scene)  # type: ignore[attr-defined]  # neither may go while it is called
-    return step
-
-
-def _finite(limits: np.ndarray) -> np.ndarray:
-    return np.minimum(limits, 1e9).astype(np.float32)
-
-
-def in_newton(file: Path, slides: list[Any], hz: float) -> Drive:
-    import newton
-    import newton_usd_schemas  # noqa: F401
-    import physx_usd_schemas  # noqa: F401
-    import warp
-
-    warp.config.quiet = True
-    with warp.ScopedDevice("cpu"):
-        builder = newton.ModelBuilder()
-        newton.solvers.SolverMuJoCo.register_custom_attributes(builder)
-        found = builder.add_usd(str(file), load_visual_shapes=False)
-        model = builder.finalize(device="cpu")
-        solver = newton.solvers.SolverMuJoCo(model, use_mujoco_cpu=True)
-        states, control = [model.state(), model.state()], model.control()
-        newton.eval_fk(model, model.joint_q, model.joint_qd, states[0])
-    numbers = [found["path_joint_map"][slide.path] for slide in slides]
-    at, moving = (starts.numpy()[numbers] for starts in (model.joint_q_start, model.joint_qd_start))
-
-    def step(targets: np.ndarray) -> tuple[np.ndarray, np.ndarray]:
-        control.joint_target_q.numpy()[at] = targets
-        with warp.ScopedDevice("cpu"):
-            solver.step(states[0], states[1], control, None, 1.0 / hz)
-        states.reverse()
-        return states[0].joint_q.numpy()[at], states[0].joint_qd.numpy()[moving]
-
-    return step
 
 
 if __name__ == "__main__":

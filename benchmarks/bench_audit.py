@@ -1,0 +1,255 @@
+"""The audit of a machine's own physics as one table: three engines, the file as it is, every figure beside its bar.
+
+    python benchmarks/bench_audit.py [FILE.usda …] [--data FOLDER] [--engines physx newton mujoco] [--rows step force …]
+
+Default: both examples, built into a temporary folder; with `--data` the ZX120 that it holds, without a sheet, too.
+Nothing of `yellowiron.simulation` is used: `plain.py` calls each engine by its own documentation, drives are told
+targets, colliders are the file's. PhysX at 120 Hz, Newton at 240 Hz (levers: 1 kHz, Euler's integrator), MuJoCo at
+1 kHz.
+
+step      greatest speed after steps of a target from end to end, by flow over area, the base fixed
+force     what a cylinder pulls and pushes with, by area times pressure, farthest off, as the file says it; …
+told      … and told each way (`yellowiron.each_way`; MJCF says both itself)
+levers    greatest speed with levers pushed whole through the oil (`Actuation` = `hydraulic`), and …
+power     … the most power of all cylinders at once, by the engine's
+pins      the widest gap of a pin over slow strokes; PhysX at 60 Hz with 4 position iterations, the others as above
+slope     mm/s down 20 degrees, brakes set
+sinking   mm that a cylinder gives in a minute under the rated load, on the ground
+tipping   the load at which the machine tips in the pose of its template's first such test, its cylinders locked, by
+          the sheet's
+"""
+
+from __future__ import annotations
+
+import argparse
+import json
+import math
+import subprocess
+import sys
+import tempfile
+from collections.abc import Callable
+from pathlib import Path
+from typing import Any
+
+import numpy as np
+
+from bench_defaults import Worst, targets
+from bench_slope import downhill
+from bench_steps import steps_in
+from plain import HZ, Engine, Newton, PhysX, World, built, started, turned
+from yellowiron.each_way import EachWay
+from yellowiron.hydraulics import ENGINE
+from yellowiron.kinematics.measuring.bench import Bench
+from yellowiron.kinematics.strength import rated_load
+from yellowiron.model.mechanism import Mechanism, Site
+from yellowiron.model.specification import fold
+from yellowiron.usd import read_mechanism
+
+ENGINES = ("physx", "newton", "mujoco")
+WALL = 1e9
+"""kg: an armature that hardly anything moves."""
+STALLED = 0.2
+"""Seconds that a force has on it."""
+QUIET = 4.0
+"""Seconds to come to rest on the ground, and to a pose."""
+PRESSING = (0.1, 0.005)
+"""By so much a second a load grows, by the published one's size: up to 0.8 of it, and then."""
+TIPPED = math.radians(2.0)
+"""Lean since the load began: less than that tyres and tracks give."""
+
+
+def main() -> None:
+    parser = argparse.ArgumentParser(description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter)
+    parser.add_argument("files", nargs="*", type=Path)
+    parser.add_argument("--data", type=Path, help="a folder with zx120/zx120.glb")
+    parser.add_argument("--engines", nargs="*", choices=ENGINES, default=list(ENGINES))
+    parser.add_argument("--rows", nargs="*", choices=ROWS, default=list(ROWS))
+    parser.add_argument("--one", nargs=2, metavar=("ROW", "ENGINE"), help=argparse.SUPPRESS)
+    given = parser.parse_args()
+    if given.one:
+        row, engine = given.one
+        print(json.dumps(ROWS[row](engine, given.files[0])))
+        return
+    with tempfile.TemporaryDirectory() as folder:
+        for file in given.files or built(Path(folder), given.data):
+            print(f"\n{file.parent.name}\n\n| | {' | '.join(given.engines)} | bar |")
+            print(f"|---|{'---|' * (len(given.engines) + 1)}", flush=True)
+            for row in given.rows:
+                cells = [_of_a_process(file, row, engine) for engine in given.engines]
+                print(f"| {row} | {' | '.join(cells)} | {BARS[row]} |", flush=True)
+
+
+def _of_a_process(file: Path, row: str, engine: str) -> str:
+    command = [sys.executable, __file__, str(file), "--one", row, engine]
+    ran = subprocess.run(command, capture_output=True, text=True, check=False)
+    if ran.returncode:
+        last = ran.stderr.strip().splitlines() or ["?"]
+        return f"fails: {last[-1][:80]} ({ran.returncode})"
+    return str(json.loads(ran.stdout.strip().splitlines()[-1]))
+
+
+# ---- speeds and forces -----------------------------------------------------------------------------------------------
+def step(engine: str, file: Path) -> str:
+    seen = steps_in(engine, file, [])["speeds"].values()
+    return f"{max(max(each) for each in seen) - 1.0:+.1%}"
+
+
+def levers(engine: str, file: Path) -> str:
+    found = steps_in(engine, file, ["--levers"])
+    own = f"{max(max(each) for each in found['speeds'].values()) - 1.0:+.1%}, {found['power'] / 1e3:.0f} kW"
+    rated = engine_power(read_mechanism(file))
+    return own if rated is None else f"{own} ({found['power'] / rated - 1.0:+.0%})"
+
+
+def engine_power(mechanism: Mechanism) -> float | None:
+    """W by the sheet, as the oil's layer reads it."""
+    known = {fold(name): entry for name, entry in mechanism.specifications.items() if entry.get("status") == "ok"}
+    values = (known[fold(name)].get("value") for name in ENGINE if fold(name) in known)
+    return next((float(value) for value in values if value), None)
+
+
+def force(engine: str, file: Path) -> str:
+    return _stalled(engine, file, told=False)
+
+
+def told(engine: str, file: Path) -> str:
+    return _stalled(engine, file, told=True)
+
+
+def _stalled(engine: str, file: Path, *, told: bool) -> str:
+    """The force that is farthest off its rated one: by the speed that it gives a slide as heavy as a wall."""
+    mechanism = read_mechanism(file)
+    at = started(engine, file, World(HZ[engine], down=(0.0, 0.0, 0.0)))
+    limits = None
+    if told and isinstance(at, PhysX):
+        limits = EachWay.of(mechanism, at.dofs)
+    elif told and isinstance(at, Newton):
+        model = at.solver.mj_model
+        model.jnt_actfrcrange[:] = EachWay.of(mechanism, [model.joint(n).name for n in range(model.njnt)]).ranges
+    for number in range(len(at.slides)):
+        at.burden(number, WALL)
+    worst = 0.0
+    for way, rated in ((0, "lower"), (1, "upper")):
+        wanted = np.array([getattr(slide, rated) for slide in at.slides])
+        at.tell(wanted)
+        if limits is not None:
+            assert isinstance(at, PhysX)
+            at.strokes(), at.speeds()
+            rows = (at.rows[kind] for kind in ("POSITION_TARGET", "POSITION", "VELOCITY"))
+            at.rows["MAX_FORCE"][:] = limits.forces_now(*rows)
+            at.write("MAX_FORCE")
+        before, steps = at.speeds(), round(STALLED * at.hz)
+        for _ in range(steps):
+            at.step()
+        forces = np.abs(at.speeds() - before) * WALL * at.hz / steps
+        own = [mechanism.joint(slide.name).drive for slide in at.slides]
+        off = [float(f) / d.forces[way] - 1.0 for f, d in zip(forces, own, strict=True) if d is not None]
+        worst = max([worst, *off], key=abs)
+    return f"{worst:+.1%}"
+
+
+# ---- loops -----------------------------------------------------------------------------------------------------------
+def pins(engine: str, file: Path) -> str:
+    hz = 60.0 if engine == "physx" else HZ[engine]
+    at = started(engine, file, World(hz, iterations=4))
+    worst = Worst(at.pins, at.bodies)
+    for wanted in targets(at.slides, hz):
+        at.tell(wanted)
+        at.step()
+        poses = at.poses()
+        if not worst.see(poses[:, :3], poses[:, 3:]):
+            return "bursts"
+    return f"{1e3 * worst.gap:.3g} mm"
+
+
+# ---- on the ground ---------------------------------------------------------------------------------------------------
+def slope(engine: str, file: Path) -> str:
+    return f"{1e3 * downhill(file, f'{engine}, told' if engine == 'newton' else engine, 'set'):.3g} mm/s"
+
+
+def on_ground(engine: str, file: Path) -> Engine:
+    more = {"mjc:option:cone": "elliptic", "mjc:option:impratio": 1000.0} if engine == "newton" else {}
+    world = World(HZ[engine], base="floating", ground=True, variants={"Brakes": "set"}, told=more)
+    return started(engine, file, world)
+
+
+def pressed(at: Engine, site: Site, mechanism: Mechanism, mass: float) -> None:
+    """A step with so many kg more on a site."""
+    path = next(path for path in at.bodies if path.rpartition("/")[2] == site.body)
+    pose = at.poses()[at.bodies[path]]
+    place = np.array(site.position) - np.array(mechanism.body(site.body).origin)
+    at.push(path, np.array([0.0, 0.0, -9.81 * mass]), pose[:3] + turned(pose[None, 3:], place[None])[0])
+    at.step()
+
+
+def sinking(engine: str, file: Path) -> str:
+    mechanism = read_mechanism(file)
+    load = rated_load(mechanism)
+    if load is None:
+        return "–"
+    at, seen = on_ground(engine, file), []
+    for seconds in (10.0, 60.0):
+        for _ in range(round(seconds * at.hz)):
+            pressed(at, load[0], mechanism, load[1])
+        seen.append(at.strokes())
+    return f"{1e3 * float(np.abs(seen[1] - seen[0]).max()):.3g} mm"
+
+
+def tipping(engine: str, file: Path) -> str:
+    """By the first test of the template that tips it, else as drawn: slowly into its pose, then a load that grows."""
+    mechanism = read_mechanism(file)
+    at = on_ground(engine, file)
+    start = wanted = at.strokes()
+    test = next((test for test in mechanism.tests if test.kind == "tipping"), None)
+    load = rated_load(mechanism)
+    if test is not None:
+        bench = Bench(mechanism)
+        state = bench.pose(test.steps)
+        wanted = np.array([bench.chain.coordinate(state, slide.name) for slide in at.slides])
+        site = next(site for site in mechanism.sites if site.name == test.site)
+        published = published_value(mechanism, test.specification or test.name)
+    elif load is not None:
+        site, published = load[0], None
+    else:
+        return "–"
+    steps = round(2.0 * QUIET * at.hz)
+    for number in range(steps + round(QUIET * at.hz)):
+        share = min(1.0, number / steps)
+        at.tell(start + (wanted - start) * (0.5 - 0.5 * math.cos(math.pi * share)))
+        at.step()
+    at.hold()  # the standards' tests have their cylinders locked
+    scale = published or 0.2 * sum(body.mass for body in mechanism.bodies)
+    first, mass = upright(at), 0.0
+    while mass < 3.0 * scale:
+        mass += PRESSING[mass > 0.8 * scale] * scale / at.hz
+        pressed(at, site, mechanism, mass)
+        lean = math.acos(min(1.0, float(first @ upright(at))))
+        if not math.isfinite(lean):
+            return "breaks down"
+        if lean > TIPPED:
+            return f"{mass:.0f} kg" + (f" ({mass / published - 1.0:+.1%})" if published else ", none published")
+    return "does not tip"
+
+
+def upright(at: Engine) -> np.ndarray:
+    return turned(at.poses()[at.bodies[at.root]][None, 3:], np.array([[0.0, 0.0, 1.0]]))[0]
+
+
+def published_value(mechanism: Mechanism, name: str) -> float | None:
+    known = {fold(each): entry for each, entry in mechanism.specifications.items()}
+    value = known.get(fold(name), {}).get("value")
+    return float(value) if value else None
+
+
+ROWS: dict[str, Callable[[str, Path], Any]] = {
+    "step": step, "force": force, "told": told, "levers": levers, "pins": pins, "slope": slope,
+    "sinking": sinking, "tipping": tipping,
+}  # fmt: skip
+BARS = {
+    "step": "+10 %", "force": "", "told": "± 2 %", "levers": "+10 %, power +20 %", "pins": "20 mm", "slope": "holds",
+    "sinking": "1 mm", "tipping": "± 10 %",
+}  # fmt: skip
+
+
+if __name__ == "__main__":
+    main()
