@@ -87,6 +87,7 @@ class Hydraulics:
         self._openings = dict.fromkeys(self.circuits, 0.0)
         self._targets: dict[str, float] = {}
         self._strokes: dict[str, float] = {}
+        self._own: dict[str, float] = {}
         self.speeds: Mapping[str, float] = dict.fromkeys(self.circuits, 0.0)
         """Actuator → the speed that its oil gives it, m/s of its slide, at the last step; less in its cushions."""
 
@@ -118,15 +119,17 @@ class Hydraulics:
             pressure = max(0.0, min(load, circuit.forces[way])) / area
             demands[name] = abs(opening) * area * circuit.speeds[way], pressure
         share = self._share(demands)
-        targets = {}
+        own = self._moving(strokes, seconds)
+        ahead = self._after(own)
         speeds = {}
         for name, circuit in self.circuits.items():
             opening = self._openings[name]
             way = int(opening > 0.0)
             speeds[name] = math.copysign(share * demands[name][0] / circuit.areas[way], opening)
-            targets[circuit.slide] = self._target(circuit, strokes[circuit.slide], speeds[name], seconds)
+            self._move(circuit, strokes[circuit.slide], speeds[name], own[circuit.slide], seconds)
+        self._ease(strokes, ahead, seconds)
         self.speeds = speeds
-        return targets
+        return dict(self._targets)
 
     def controls(self, targets: Mapping[str, float]) -> dict[str, float]:
         """Actuator → the control of its servo in the exported MJCF, for the targets of `step`."""
@@ -146,23 +149,55 @@ class Hydraulics:
         power = share * sum(each * pressure for each, pressure in demands.values())
         return share * (min(1.0, self.power / power) if power > 0.0 else 1.0)
 
-    def _target(self, circuit: Circuit, stroke: float, speed: float, seconds: float) -> float:
+    def _moving(self, strokes: Mapping[str, float], seconds: float) -> dict[str, float]:
+        """Slide → its own speed since the last step, m/s."""
+        slides = [circuit.slide for circuit in self.circuits.values()]
+        before, self._strokes = self._strokes, {slide: strokes[slide] for slide in slides}
+        if not seconds > 0.0:
+            return dict.fromkeys(slides, 0.0)
+        return {slide: (strokes[slide] - before.get(slide, strokes[slide])) / seconds for slide in slides}
+
+    def _after(self, own: Mapping[str, float]) -> Mapping[str, float]:
+        """What the drives see of these speeds: those of a step's end where they solve for it, as they last changed."""
+        before, self._own = self._own, dict(own)
+        if not self._implicit:
+            return own
+        return {slide: 2.0 * speed - before.get(slide, speed) for slide, speed in own.items()}
+
+    def _behind(self, circuit: Circuit, own: float, seconds: float) -> float:
+        """Metres by which a drive that exerts nothing has its slide behind its target."""
+        return (circuit.lag + self._implicit * seconds) * own
+
+    def _move(self, circuit: Circuit, stroke: float, speed: float, own: float, seconds: float) -> None:
         """The target, moved on; no farther from where the slide is than the drive's whole force reaches, its damping
         at the slide's own speed overcome: oil that cannot move it goes over the relief valve. That speed counts up to
         the oil's: what is faster is not pushed."""
         target = self._targets.get(circuit.slide, stroke)
         speed *= self._cushioned(circuit, target, speed)
         target += speed * seconds
-        moved = stroke - self._strokes.get(circuit.slide, stroke)
-        self._strokes[circuit.slide] = stroke
         if speed != 0.0:
-            own = moved / seconds if seconds > 0.0 else 0.0
             slowest, fastest = min(speed, 0.0), max(speed, 0.0)
-            ahead = (circuit.lag + self._implicit * seconds) * max(slowest, min(fastest, own))
+            ahead = self._behind(circuit, max(slowest, min(fastest, own)), seconds)
             back, forth = (force * circuit.softness for force in circuit.forces)
             target = max(stroke - back + min(ahead, 0.0), min(stroke + forth + max(ahead, 0.0), target))
-        self._targets[circuit.slide] = target = max(circuit.lower, min(circuit.upper, target))
-        return target
+        self._targets[circuit.slide] = max(circuit.lower, min(circuit.upper, target))
+
+    def _ease(self, strokes: Mapping[str, float], own: Mapping[str, float], seconds: float) -> None:
+        """Draws targets nearer where the drives would do more at once than the pump has: what has gained its speed
+        before the power was shared anew is pushed by no more than is left for it."""
+        pushed = {}
+        for circuit in self.circuits.values():
+            slide = circuit.slide
+            at = strokes[slide] + self._behind(circuit, own[slide], seconds)
+            back, forth = circuit.forces
+            force = max(-back, min(forth, (self._targets[slide] - at) / circuit.softness))
+            if force * own[slide] > 0.0:
+                pushed[slide] = circuit, at, force
+        power = sum(force * own[slide] for slide, (_, _, force) in pushed.items())
+        if power > self.power:
+            for slide, (circuit, at, force) in pushed.items():
+                target = at + self.power / power * force * circuit.softness
+                self._targets[slide] = max(circuit.lower, min(circuit.upper, target))
 
     def _cushioned(self, circuit: Circuit, target: float, speed: float) -> float:
         """The share of its speed that is left to a cylinder so far from the end that it goes to: evenly slowed."""
