@@ -15,6 +15,7 @@ from kit.machines.articulated_trucks import articulated_truck
 from kit.machines.backhoes import backhoe
 from kit.machines.cranes import crane
 from kit.machines.crawler import merged
+from kit.machines.crawler_cranes import crawler_crane
 from kit.machines.dozers import dozer
 from kit.machines.excavators import Features, excavator
 from kit.machines.graders import grader
@@ -58,6 +59,8 @@ def drawn(kind: str, seed: int, *, segments: int = 32, hollow: bool = True) -> M
             return dozer(seed, embedded=embedded)
         if kind == "crane":
             return crane(seed, embedded=embedded)
+        if kind == "crawler_crane":
+            return crawler_crane(seed, embedded=embedded)
         if kind == "telehandler":
             return telehandler(seed, embedded=embedded)
         if kind == "wheeled_excavator":

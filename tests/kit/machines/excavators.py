@@ -92,6 +92,8 @@ class Digger(Drawer):
     """One excavator. Plates lie in levels beside the cylinders' eyes: the arm's in level 0, then outwards."""
 
     carrier = "undercarriage"
+    upper_body, ring = "upperstructure", "swing_bearing"
+    """What turns on the undercarriage, and the role of what it turns on."""
 
     def __init__(self, seed: int, features: Features, *, embedded: bool = False) -> None:
         self.rng = np.random.default_rng(seed)
@@ -329,7 +331,7 @@ class Digger(Drawer):
                 )  # fmt: skip
 
     def bearing(self) -> None:
-        m, s, kind = self.m, self.s, self.f.bearing
+        m, s, kind, upper, ring = self.m, self.s, self.f.bearing, self.upper_body, self.ring
         z0, z1 = self.frame_top, self.deck_low
         h = z1 - z0
         r = 0.5 * s
@@ -338,28 +340,21 @@ class Digger(Drawer):
             m.add(name, role, body, lathe(name, profile), place((0, 0, z0), Z, X))
 
         if kind == "races":
-            add(
-                "inner ring", "swing_bearing", "undercarriage", [(0.8 * r, 0), (r, 0), (r, 0.8 * h), (0.8 * r, 0.8 * h)]
-            )
-            add(
-                "outer ring",
-                "upperstructure",
-                "upperstructure",
-                [(r, 0.2 * h), (1.2 * r, 0.2 * h), (1.2 * r, h), (r, h)],
-            )
+            add("inner ring", ring, "undercarriage", [(0.8 * r, 0), (r, 0), (r, 0.8 * h), (0.8 * r, 0.8 * h)])
+            add("outer ring", upper, upper, [(r, 0.2 * h), (1.2 * r, 0.2 * h), (1.2 * r, h), (r, h)])
         elif kind == "spigot":
-            add("ring", "swing_bearing", "undercarriage", [(0.85 * r, 0), (r, 0), (r, 0.7 * h), (0.85 * r, 0.7 * h)])
+            add("ring", ring, "undercarriage", [(0.85 * r, 0), (r, 0), (r, 0.7 * h), (0.85 * r, 0.7 * h)])
             q = 0.849 * r
-            add("turntable", "upperstructure", "upperstructure",
+            add("turntable", upper, upper,
                 [(0, 0.1 * h), (q, 0.1 * h), (q, 0.7 * h), (1.3 * r, 0.7 * h), (1.3 * r, h), (0, h)])  # fmt: skip
         elif kind == "boss":
-            add("tower", "swing_bearing", "undercarriage", [(0, 0), (0.8 * r, 0), (0.8 * r, 0.9 * h), (0, 0.9 * h)])
+            add("tower", ring, "undercarriage", [(0, 0), (0.8 * r, 0), (0.8 * r, 0.9 * h), (0, 0.9 * h)])
             q = 0.801 * r
             block = box("turn_block", 2.6 * r, 2.4 * r, 0.6 * h, [(0, 0, q)])
-            m.add("turn block", "upperstructure", "upperstructure", block, place((0, 0, z1 - 0.3 * h), Z, X))
+            m.add("turn block", upper, upper, block, place((0, 0, z1 - 0.3 * h), Z, X))
         else:
-            add("tower", "swing_bearing", "undercarriage", [(0, 0), (r, 0), (r, 0.5 * h), (0, 0.5 * h)])
-            add("turntable", "upperstructure", "upperstructure",
+            add("tower", ring, "undercarriage", [(0, 0), (r, 0), (r, 0.5 * h), (0, 0.5 * h)])
+            add("turntable", upper, upper,
                 [(0, 0.5 * h), (1.2 * r, 0.5 * h), (1.2 * r, h), (0, h)])  # fmt: skip
 
     def upper(self) -> None:
