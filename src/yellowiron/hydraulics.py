@@ -158,10 +158,8 @@ class Hydraulics:
         return {slide: (strokes[slide] - before.get(slide, strokes[slide])) / seconds for slide in slides}
 
     def _after(self, own: Mapping[str, float]) -> Mapping[str, float]:
-        """What the drives see of these speeds: those of a step's end where they solve for it, as they last changed."""
+        """These speeds at the step's end, as they last changed: what the drives are damped by there."""
         before, self._own = self._own, dict(own)
-        if not self._implicit:
-            return own
         return {slide: 2.0 * speed - before.get(slide, speed) for slide, speed in own.items()}
 
     def _behind(self, circuit: Circuit, own: float, seconds: float) -> float:
