@@ -245,12 +245,8 @@ class SiteTemplate:
 @dataclass(frozen=True)
 class MeasurementTemplate:
     """A specification that can be measured on the mechanism, as data: which quantity, after which steps (docs:
-    template format).
-
-    `specification` is the wanted name it is compared with; `definition` the words (and the standard) behind it.
-    `unpublished` says why the sheet's value is another one's (another steering mode's): it stands beside, and the
-    measurement is held against nothing.
-    """
+    template format). `specification` is the wanted name it is compared with; `definition` the words (and the standard)
+    behind it; `unpublished` why the sheet's value is another one's (another steering mode's), so that it is not."""
 
     name: str
     specification: str
