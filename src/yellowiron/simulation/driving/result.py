@@ -16,6 +16,8 @@ BLOCK_HEIGHT = 0.15
 """Metres."""
 DISTANCE_BAR, RADIUS_BAR, LIFTED = 0.03, 0.05, 0.02
 """Shares by which a distance and the turning radius may be off, and metres that a wheel may rise."""
+STEERED = 0.5
+"""A steering that comes less than this share of its way is held by the tyres: no turn, nor a way, is one to judge."""
 SPIN_BAR, SWING_BAR, CRAB_BAR = 0.1 * SPIN, math.radians(1.0), math.radians(2.0)
 """Radians by which a turn on the spot, a swing and the way of a machine that crabs may be off."""
 
@@ -25,7 +27,8 @@ class DrivingResult:
     """Metres, radians, seconds. `sunk` and `creep`: how far the root came down and its speed after settling. Travel is
     the root's; `turning_radius` is that of the outermost wheel's middle, `geometry_radius` where the axles' lines meet
     at the measured lock, of a machine with a drum where dry friction lets it turn (`sliding`), none of one with an axle
-    too many that neither drives nor steers; `axes_radius`: by the axles' lines in any case. `crab`: the way to the
+    too many that neither drives nor steers; `axes_radius`: by the axles' lines in any case; `steered`: the share of
+    its way to full lock that the steering came to rest at. `crab`: the way to the
     left of a machine whose wheels are all turned one way, against `crab_geometry`, the mean of where they point at
     full lock; it does not turn. `spin`: the turn on the
     spot of a machine that steers by its two sides' speeds, against `spin_geometry`, what dry friction leaves of it on
@@ -43,6 +46,7 @@ class DrivingResult:
     backward: float
     sideways: float
     distance: float = DISTANCE
+    steered: float | None = None
     lock: float | None = None
     turning_radius: float | None = None
     geometry_radius: float | None = None
@@ -73,6 +77,7 @@ def driving_document(result: DrivingResult) -> dict[str, Any]:
         "backward_m": result.backward,
         "backward_error_percent": 100.0 * (result.backward / result.distance - 1.0),
         "sideways_m": result.sideways,
+        "steered_percent": None if result.steered is None else 100.0 * result.steered,
         "lock_deg": None if result.lock is None else math.degrees(result.lock),
         "turning_radius_m": result.turning_radius,
         "geometry_radius_m": result.geometry_radius,
@@ -96,7 +101,11 @@ def driving_findings(result: DrivingResult) -> Iterator[Finding]:
         ("forward", result.forward, result.distance, DISTANCE_BAR),
         ("backward", result.backward, result.distance, DISTANCE_BAR),
     ]
-    if result.turning_radius is not None and result.geometry_radius is not None:
+    stuck = result.steered is not None and result.steered < STEERED
+    if stuck:
+        words = f"the steering came {100.0 * (result.steered or 0.0):.0f} % of its way to full lock: the tyres hold it"
+        yield Finding("SIM009", "warning", "steering", words, "Check its cylinder's bore and pressure.")
+    elif result.turning_radius is not None and result.geometry_radius is not None:
         figures.append(("turning radius", result.turning_radius, result.geometry_radius, RADIUS_BAR))
     for what, value, wanted, bar in figures:
         if not abs(value / wanted - 1.0) <= bar:
@@ -105,7 +114,7 @@ def driving_findings(result: DrivingResult) -> Iterator[Finding]:
     for what, turned, meant, bar in (
         ("turn on the spot", result.spin, result.spin_geometry, SPIN_BAR),
         ("swing", result.swing, result.swing_geometry, SWING_BAR),
-        ("way crabwise", result.crab, result.crab_geometry, CRAB_BAR),
+        ("way crabwise", None if stuck else result.crab, result.crab_geometry, CRAB_BAR),
     ):
         if turned is not None and meant is not None and not abs(turned - meant) <= bar:
             words = (

@@ -256,9 +256,9 @@ class _Trip:
         factors, mean = self._factors(circles), float(circles.mean())
         headings = self._headings({motion.joint: lock})
         if crabs(headings):
-            self._steered(engine, motion, {})
-            return {"crab": self._crab(engine), "crab_geometry": float(headings.mean())}
-        self._steered(engine, motion, factors)
+            share = self._steered(engine, motion, {}) / lock
+            return {"steered": share, "crab": self._crab(engine), "crab_geometry": float(headings.mean())}
+        share = self._steered(engine, motion, factors) / lock
         path, locks = [], []
         for _ in range(self._steps(_TURN * mean / SPEED)):
             tell(engine, self._speeds(SPEED, factors))
@@ -271,15 +271,16 @@ class _Trip:
         geometry = None if self._drags(held) else float(self._slid(held, meeting)[outer])
         self._rest(engine, 1.0)
         return {
+            "steered": share,
             "lock": self._lock(held),
             "turning_radius": circle_radius(np.array(path)[:, outer, :2]),
             "geometry_radius": geometry,
             "axes_radius": float(meeting[outer]),
         }
 
-    def _steered(self, engine: Engine, motion: Motion, factors: Mapping[str, float]) -> None:
+    def _steered(self, engine: Engine, motion: Motion, factors: Mapping[str, float]) -> float:
         """Gains speed in the turn, and rolls on until the steering has come to rest: tyres that scrub hold it back, and
-        it goes on for seconds after it was told where to."""
+        it goes on for seconds after it was told where to. Where it stands then, metres."""
         place = self.chain.independent.index(motion.joint)
         window = self._steps(_STILL)
         means = []
@@ -293,6 +294,7 @@ class _Trip:
             means.append(float(np.mean(were)))
             if len(means) > 1 and abs(means[-1] - means[-2]) < _MOVES * motion.stroke:
                 break
+        return means[-1]
 
     def _crab(self, engine: Engine) -> float:
         """Drives as far as it drove ahead, all wheels turned one way: how far to the left it goes of where its root
