@@ -17,7 +17,15 @@ from yellowiron.model.specification import Specifications
 @pytest.mark.parametrize(("seed", "parallel", "extending"), [(610, True, True), (611, True, False), (612, False, True)])
 def test_every_part_is_in_its_body(seed: int, parallel: bool, extending: bool, triangles: bool) -> None:
     machine = backhoe(seed, parallel=parallel, extending=extending)
-    found_whole(machine, "backhoe_loader", seed, triangles=triangles)
+    found = found_whole(machine, "backhoe_loader", seed, triangles=triangles)
+    assert found.choices["rear_axle"] == "fixed"
+
+
+@pytest.mark.slow
+@pytest.mark.parametrize(("seed", "triangles"), [(613, False), (614, True), (615, False)])
+def test_a_steered_rear_axle_is_told_from_a_fast_one(seed: int, triangles: bool) -> None:
+    found = found_whole(backhoe(seed, all_steer=True), "backhoe_loader", seed, triangles=triangles)
+    assert found.choices["rear_axle"] == "steered"
 
 
 def test_a_type_of_many_joints_may_take_more_of_the_solver_s_time() -> None:

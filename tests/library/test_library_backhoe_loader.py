@@ -21,9 +21,14 @@ def template() -> Template:
 def test_it_moves_as_it_should(template: Template) -> None:
     report = library.lint(template)
     assert [f for f in report.findings if f.severity != "info"] == []
-    # Axle, steering, four wheels, loader 2, backhoe 4 and its dipper's extension, two stabilizers.
-    assert {(m.computed, m.expected) for m in report.mobility} == {(14, 14), (15, 15)}
-    assert len(report.mobility) == 24
+    for found in report.mobility:
+        # Axle, steering, four wheels, loader 2, backhoe 4 and its dipper's extension, two stabilizers; the rear wheels'
+        # steering unless it follows.
+        expected = 14 + (found.choices["dipper_type"] == "extending")
+        expected += found.choices["rear_axle"] == "steered" and found.choices["steering_mode"] == "front"
+        assert (found.computed, found.expected) == (expected, expected), found.choices
+    # 24 with a fast rear axle, and three steering modes of as many with a steered one.
+    assert len(report.mobility) == 96
 
 
 @pytest.mark.parametrize(("linkage", "dipper"), itertools.product(LOADER, ["fixed", "extending"]))
@@ -34,6 +39,19 @@ def test_every_choice_has_its_cylinders(template: Template, linkage: str, dipper
     assert len(cylinders.get("extension", [])) == (dipper == "extending")
     assert cylinders["backhoe_swing"] == [(1, False), (-1, True)]
     assert cylinders["loader_lift"] == [(1, False), (1, True)]
+
+
+@pytest.mark.parametrize("mode", ["front", "all", "crab"])
+def test_a_rear_axle_is_fast_or_steered(template: Template, mode: str) -> None:
+    fast, steered = (choose(template, {"rear_axle": axle, "steering_mode": mode}) for axle in ("fixed", "steered"))
+    assert [a.name for a in fast.actuators if "steering" in a.name] == ["steering"]
+    assert {r.name for r in fast.roles if r.name.startswith("rear_") and r.rigid} == {"rear_wheel_l", "rear_wheel_r"}
+    assert fast.bodies_of(fast.joint("rear_wheel_l_joint")) == ("chassis", "rear_wheel_l")
+    assert steered.bodies_of(steered.joint("rear_wheel_l_joint")) == ("rear_knuckle_l", "rear_wheel_l")
+    (cylinder,) = next(a for a in steered.actuators if a.name == "rear_steering").cylinders
+    assert cylinder.passive is (mode != "front")
+    follows = steered.joint(cylinder.slide).follows
+    assert (follows.ratio if follows else None) == {"front": None, "all": -1.0, "crab": 1.0}[mode]
 
 
 @pytest.mark.parametrize("stabilizers", ["hinged", "sliding"])

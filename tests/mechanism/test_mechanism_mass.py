@@ -2,7 +2,8 @@
 
 from __future__ import annotations
 
-from dataclasses import replace
+from dataclasses import dataclass, replace
+from typing import Any, cast
 
 import numpy as np
 import pytest
@@ -13,6 +14,7 @@ from mechanism_machine import box, machine, specifications, template
 from yellowiron.mechanism import build_mechanism
 from yellowiron.mechanism.bodies.choice import Choice
 from yellowiron.mechanism.bodies.mass import Moments, combine, shell_moments, solid_moments
+from yellowiron.mechanism.bodies.usual_weight import ground_length
 from yellowiron.model.geometry import Floats
 from yellowiron.model.mechanism import Mechanism
 
@@ -168,6 +170,31 @@ def test_a_published_bucket_does_not_stop_the_machine_s_weight_from_being_assume
     built = usual(3.0 * total(build()), Arm_Weight=300.0)
     assert mass_of(built, "arm") == pytest.approx(300.0) and total(built) == pytest.approx(3.0 * total(build()))
     assert [f.code for f in built.findings if f.code in ("MEC035", "MEC032") and f.where == "mass"] == ["MEC035"]
+
+
+@dataclass(frozen=True)
+class Standing:
+    """A placement of wheels, a row each, by the boxes that they fill: x from, to; y from, to."""
+
+    boxes: tuple[tuple[float, float, float, float], ...]
+
+    @property
+    def roles(self) -> list[str]:
+        return ["wheel"] * len(self.boxes)
+
+    def points_of(self, rows: list[int]) -> np.ndarray:
+        corners = [((x0, y0, 0.0), (x1, y1, 0.6)) for x0, x1, y0, y1 in (self.boxes[row] for row in rows)]
+        return np.array(corners).reshape(-1, 3)
+
+
+def test_wheels_of_one_axle_or_one_wheel_are_no_length_to_weigh_a_machine_by() -> None:
+    known = template()
+    rolling = replace(known, roles=(*known.roles, replace(known.roles[0], name="wheel", kind="wheel")))
+    front, other, rear = (1.6, 2.2, 0.4, 0.6), (1.6, 2.2, -0.6, -0.4), (0.0, 0.6, 0.4, 0.6)
+    assert ground_length(cast("Any", Standing((front, other, rear))), rolling) == pytest.approx(2.2)
+    assert ground_length(cast("Any", Standing((front, other))), rolling) is None
+    # A public forklift has one wheel drawn: it weighed 54 kg.
+    assert ground_length(cast("Any", Standing((front,))), rolling) is None
 
 
 def test_what_a_weight_leaves_is_in_the_open_shapes() -> None:

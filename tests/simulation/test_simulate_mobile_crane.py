@@ -4,6 +4,7 @@ where it tips beside the maker's load chart, and how it drives."""
 from __future__ import annotations
 
 import importlib
+import math
 from pathlib import Path
 from types import ModuleType
 
@@ -12,6 +13,8 @@ import pytest
 
 from kit.builds import MadeOnce
 from kit.machines.drawn_examples import built_example
+from yellowiron.kinematics import attached
+from yellowiron.kinematics.measuring.bench import Bench
 from yellowiron.model.errors import YellowironError
 from yellowiron.simulation import (
     ChartLoad,
@@ -22,7 +25,9 @@ from yellowiron.simulation import (
     run_tests,
     simulate,
 )
+from yellowiron.simulation.machine_tests.statics import supports
 from yellowiron.simulation.registry import import_engine
+from yellowiron.usd import read_mechanism
 
 pytestmark = pytest.mark.slow
 
@@ -78,6 +83,36 @@ def test_it_tips_where_the_maker_s_chart_says_that_stability_bounds_it(
         assert figure.tips_at == pytest.approx(values.STABILITY * figure.row.load, rel=0.1), figure
     out = chart_stability(file, [ChartLoad(30.5, 40.0, 100.0)])
     assert out[0].tips_at is None and "cannot be reached" in out[0].reason
+
+
+def test_over_its_sides_it_tips_about_the_floats_of_that_side(file: Path) -> None:
+    """By hand: moments about the line through one side's floats, on which alone the crane stands as it tips."""
+    row = ChartLoad(23.45, 12.0, 5000.0)
+    mechanism = attached(read_mechanism(file))
+    slew = next(a.joints[0].joint for a in mechanism.actuators if a.name == "slew")
+    bench = Bench(mechanism)
+    length, radius = {"kind": "distance", "sites": ["boom_foot", "boom_head"]}, {"kind": "radius", "joint": slew}
+    drawn = bench.pose(
+        (
+            {"solve": [{"actuator": "telescope", "quantity": length, "value": row.boom_length}]},
+            {"solve": [{"actuator": "luffing", "quantity": {**radius, "site": "boom_head"}, "value": row.radius}]},
+        )
+    )
+    axis = mechanism.joint(slew)
+    found = {}
+    for side in (1.0, -1.0):
+        (figure,) = chart_stability(file, [row], slewed=side * math.pi / 2)
+        state, _ = bench.chain.reach({slew: side * axis.axis[2] * math.pi / 2}, start=drawn)
+        edge = max(side * float(p[1]) for _, p in supports(mechanism, bench.chain, state))
+        placed = {b.name: bench.chain.displacement(state, b.name) @ [*b.center_of_mass, 1.0] for b in mechanism.bodies}
+        holding = sum(b.mass * (edge - side * placed[b.name][1]) for b in mechanism.bodies)
+        load = holding / (row.radius + side * axis.anchor[1] - edge)
+        assert figure.tips_at is not None
+        found[side] = figure.tips_at - load
+        assert figure.tips_at > row.load
+    # The mass that the figure counts besides is the hook's and its rope's.
+    hanging = sum(b.mass for b in mechanism.bodies if b.name in ("hook_block", "hoist_rope"))
+    assert [*found.values()] == pytest.approx([hanging, hanging], rel=0.01)
 
 
 def test_rated_loads_are_hauled_in_at_three_radii(file: Path, values: ModuleType) -> None:

@@ -11,11 +11,19 @@ import pytest
 from in_engines import load
 
 from kit.builds import MadeOnce, reading_once, without_pages
+from kit.machines.backhoes import backhoe
 from kit.machines.drawn_examples import build_example, drawn_example
+from kit.machines.synthetic import disguise
+from yellowiron import usd
+from yellowiron.alignment import align
+from yellowiron.library import load_template
 from yellowiron.model.mechanism import Actuator, Mechanism
+from yellowiron.model.specification import Specifications
+from yellowiron.model.template import choose
 from yellowiron.pipeline import Machine, build
 from yellowiron.simulation.engine import Setup, poses
 from yellowiron.simulation.registry import ENGINES
+from yellowiron.stages import complete_mechanism
 
 pytestmark = pytest.mark.slow
 
@@ -50,14 +58,33 @@ def test_wheels_turn_the_way_the_mode_says(steered: tuple[str, Machine]) -> None
     assert [f for f in machine.mechanism.findings if f.severity != "info"] == []
     rear = next(c for c in machine.mechanism.cylinders if c.name == "rear_steering_cylinder")
     assert rear.passive is (mode != "front") and rear.rod_diameter is not None
-    levers = {a.name: a for a in machine.mechanism.actuators if "steering" in a.name}
+    _assert_turned(mode, machine.mechanism, machine.usd)
+
+
+@pytest.mark.parametrize("mode", ["front", "all", "crab"])
+def test_a_backhoe_loader_with_a_steered_rear_axle(mode: str, tmp_path: Path) -> None:
+    """It is drawn by the generator of unseen ones, without names; the example's rear axle is fast."""
+    assembly, truth, _ = disguise(backhoe(501, all_steer=True), 501)
+    template = load_template("backhoe_loader")
+    found = align(assembly, template, Specifications())
+    assert found.choices["rear_axle"] == "steered" and not found.missing
+    assert [p.part for p in found.parts if p.body != truth[p.part][1]] == []
+    chosen = choose(template, {**found.choices, "steering_mode": mode})
+    mechanism = complete_mechanism(assembly, chosen, found, Specifications())
+    usd.write_machine(mechanism, assembly, tmp_path, name="machine", frame=found.frame)
+    _assert_turned(mode, mechanism, tmp_path / "machine.usda")
+
+
+def _assert_turned(mode: str, mechanism: Mechanism, file: Path) -> None:
+    """Every wheel turns the way that the mode says, and holds where it should."""
+    levers = {a.name: a for a in mechanism.actuators if "steering" in a.name}
     assert set(levers) == ({"steering", "rear_steering"} if mode == "front" else {"steering"})
-    left = _turned(machine, levers["steering"], PUSHED)
+    left = _turned(mechanism, file, levers["steering"], PUSHED)
     assert all(angle > 5.0 for end, angle in left.items() if end.startswith("front")), left
     rear = [angle for end, angle in left.items() if end.startswith("rear")]
     if mode == "front":
         assert np.abs(rear).max() < 0.05
-        own = _turned(machine, levers["rear_steering"], PUSHED)
+        own = _turned(mechanism, file, levers["rear_steering"], PUSHED)
         assert all((angle < -5.0) if end.startswith("rear") else abs(angle) < 0.05 for end, angle in own.items()), own
     else:
         way = -1.0 if mode == "all" else 1.0
@@ -69,12 +96,12 @@ def test_wheels_turn_the_way_the_mode_says(steered: tuple[str, Machine]) -> None
             assert left[f"rear_knuckle_{side}"] == pytest.approx(ahead, abs=0.2), left
 
 
-def _turned(machine: Machine, lever: Actuator, by: float) -> dict[str, float]:
-    """Degrees to the left by which each knuckle has turned after its lever, in metres of the rod, came to rest."""
-    mechanism: Mechanism = machine.mechanism
+def _turned(mechanism: Mechanism, file: Path, lever: Actuator, by: float) -> dict[str, float]:
+    """Degrees to the left by which each knuckle, `front_knuckle_l` and so on, has turned after its lever, in metres of
+    the rod, came to rest."""
     (joint,) = lever.joints
     step = ENGINES["mujoco"].timestep
-    loaded = load("mujoco", Setup(machine.usd, mechanism, "fixed", step, (joint.joint,)))
+    loaded = load("mujoco", Setup(file, mechanism, "fixed", step, (joint.joint,)))
     try:
         ramp = joint.sign * by * np.clip(np.arange(1, round(4.0 / step)) * step / 2.0, 0.0, 1.0)
         for _ in loaded.targets((joint.joint,), ramp[:, None]):
@@ -84,7 +111,7 @@ def _turned(machine: Machine, lever: Actuator, by: float) -> dict[str, float]:
         loaded.close()
     names = [body.name for body in mechanism.bodies]
     return {
-        name: float(np.degrees(np.arctan2(*rotations[k, (1, 0), 0])))
+        name if name[0] in "fr" else f"front_{name}": float(np.degrees(np.arctan2(*rotations[k, (1, 0), 0])))
         for k, name in enumerate(names)
         if "knuckle" in name
     }

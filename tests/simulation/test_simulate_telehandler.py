@@ -11,6 +11,7 @@ import pytest
 
 from kit.builds import MadeOnce, reading_once, without_pages
 from kit.machines.drawn_examples import built_example, drawn_example
+from yellowiron.kinematics import measure
 from yellowiron.pipeline import build
 from yellowiron.simulation import drive, run_tests, simulate
 from yellowiron.simulation.driving.result import DrivingResult, driving_findings
@@ -76,7 +77,13 @@ def test_steered_by_all_wheels_it_turns_in_little_more_than_half(
     all_ = drive(machine.usd, engine="mujoco")
     assert driven.turning_radius is not None and all_.turning_radius is not None
     # Its four axes do not meet, steered as two wheels want it: where the middle is then, friction decides.
-    assert 0.5 < all_.turning_radius / driven.turning_radius < 0.65
+    assert 0.5 < all_.turning_radius / driven.turning_radius < 0.7
+    # Four tyres hold the steering back: it comes to its lock seconds after it was told to, and is measured there.
+    assert all_.lock is not None and all_.lock > 1.9 * math.radians(46.0)
+    assert list(driving_findings(all_)) == []
+    # The sheet's turning radius is another steering mode's.
+    radius = next(m for m in measure(machine.mechanism) if m.name == "Turning Radius")
+    assert radius.model is not None and radius.spec is None and "steering_mode=front" in radius.reason
 
 
 def test_it_lifts_its_rated_capacity_and_takes_the_time_that_is_printed(file: Path) -> None:

@@ -9,7 +9,8 @@ import numpy as np
 import pytest
 
 from yellowiron.model.mechanism import Actuator, ActuatorJoint, Body, Joint, Mechanism, scrubbing
-from yellowiron.simulation.driving.turning import turning_centre
+from yellowiron.simulation.driving.result import DrivingResult, driving_findings
+from yellowiron.simulation.driving.turning import crabs, turning_centre
 from yellowiron.simulation.ground import usual_base
 
 LEFT, ORIGIN = (0.0, 1.0), (0.0, 0.0, 0.0)
@@ -38,6 +39,26 @@ def test_of_a_bogie_the_last_axle_does_not_slide() -> None:
 def test_what_goes_straight_turns_nowhere_in_particular() -> None:
     places, axes = np.array([[0.0, 1.0], [0.0, -1.0], [3.0, 1.0]]), np.array([LEFT] * 3)
     assert np.isfinite(turning_centre(places, axes)).all()
+
+
+def test_wheels_turned_one_way_go_that_way() -> None:
+    assert crabs(np.array([0.5, 0.42, 0.5, 0.42])) and crabs(np.array([-0.5, -0.42]))
+    assert not crabs(np.array([0.5, 0.42, 0.0, 0.0]))  # steered in front alone
+    assert not crabs(np.array([0.5, 0.42, -0.5, -0.42]))  # all wheels
+    assert not crabs(np.zeros(4))
+
+
+def test_a_steering_that_its_tyres_hold_is_told_instead_of_its_turn() -> None:
+    stuck = DrivingResult(
+        engine="mujoco", dt=0.001, payload=0.0, sunk=0.0, creep=0.0, forward=5.0, backward=5.0, sideways=0.0,
+        steered=0.04, turning_radius=48.6, geometry_radius=74.4,
+    )  # fmt: skip
+    (finding,) = driving_findings(stuck)
+    assert finding.where == "steering" and "4 % of its way" in finding.message
+    crabbing = dataclasses.replace(stuck, turning_radius=None, geometry_radius=None, crab=0.0, crab_geometry=0.5)
+    assert [f.where for f in driving_findings(crabbing)] == ["steering"]
+    assert [f.where for f in driving_findings(dataclasses.replace(crabbing, steered=1.0))] == ["way crabwise"]
+    assert list(driving_findings(dataclasses.replace(crabbing, steered=1.0, crab=0.49))) == []
 
 
 def test_a_machine_whose_trailer_rolls_freely_stands_on_the_ground(mechanism: Mechanism) -> None:

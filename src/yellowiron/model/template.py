@@ -7,7 +7,7 @@ from dataclasses import dataclass, field, replace
 from typing import Any, Literal
 
 from yellowiron.model.geometry import Color
-from yellowiron.model.machine_tests import MachineTest, PayloadTemplate
+from yellowiron.model.machine_tests import SPARSE, MachineTest, PayloadTemplate
 from yellowiron.model.sensor import SensorTemplate
 
 JointType = Literal["fixed", "distance", "spherical", "revolute", "prismatic"]
@@ -245,10 +245,8 @@ class SiteTemplate:
 @dataclass(frozen=True)
 class MeasurementTemplate:
     """A specification that can be measured on the mechanism, as data: which quantity, after which steps (docs:
-    template format).
-
-    `specification` is the wanted name it is compared with; `definition` the words (and the standard) behind it.
-    """
+    template format). `specification` is the wanted name it is compared with; `definition` the words (and the standard)
+    behind it; `unpublished` why the sheet's value is another one's (another steering mode's), so that it is not."""
 
     name: str
     specification: str
@@ -257,6 +255,7 @@ class MeasurementTemplate:
     unit: str = "m"
     definition: str = ""
     when: Choices = field(default_factory=dict, metadata={UNDECIDED: True})
+    unpublished: str = field(default="", metadata={SPARSE: True})
 
 
 @dataclass(frozen=True)

@@ -237,6 +237,7 @@ _DRIVING = (
     ("Forward", "forward_m", "distance_m", "m", 3),
     ("Back", "backward_m", "distance_m", "m", 3),
     ("Turning radius at full lock", "turning_radius_m", "geometry_radius_m", "m", 3),
+    ("Way crabwise", "crab_deg", "crab_geometry_deg", "°", 1),
     ("Turn on the spot", "spin_deg", "spin_geometry_deg", "°", 1),
     ("Swing", "swing_deg", "swing_geometry_deg", "°", 1),
     ("Axle on the block", "axle_angle_deg", "axle_geometry_deg", "°", 2),

@@ -20,7 +20,7 @@ SIM005  a cylinder or motor ended away from its target
 SIM006  a test's figure is farther from the published one than its bar
 SIM007  the rated payload was not lifted, or a load was that should not be
 SIM008  engine and statics differ by more than 5 %
-SIM009  driving: a distance, turning radius, turn on the spot or swing is off by its bar, or a wheel left the ground
+SIM009  driving: a distance, turning radius, spin, swing or way crabwise is off by its bar, or a wheel left the ground
 SIM010  an engine failed, or took no step for minutes: a build goes on without it (told by `build`)
 SIM011  on the ground actuators are not driven together where the machine falls over with what it carries
 ======  ========================================================================================================

@@ -18,8 +18,8 @@ class BackhoeChassis(SteeredChassis):
     """One machine from one generator of random numbers; the backhoe's pins are in its own plane, backward from the
     swing pivot."""
 
-    def __init__(self, seed: int, *, parallel: bool, extending: bool, embedded: bool) -> None:
-        self.parallel, self.extending = parallel, extending
+    def __init__(self, seed: int, *, parallel: bool, extending: bool, embedded: bool, all_steer: bool = False) -> None:
+        self.parallel, self.extending, self.all_steer = parallel, extending, all_steer
         super().__init__(seed, twin=True, steered=False, embedded=embedded, stop=False, hoses=0)
         u, s = self.rng.uniform, self.s
         self.m.title, self.t, self.e = "BACKHOE LOADER", 0.026 * s, 0.003 * s if embedded else 0.0
@@ -138,7 +138,8 @@ class BackhoeChassis(SteeredChassis):
             self.across("loader_arm_pin", body, self.P["A"], side, y_in - t, y_out + t)
             start = self.y_lift - self.lug_y - 0.6 * t
             self.across(f"loader_lift_cylinder_barrel_{letter}_pin", body, self.P["C"], side, start, y_in + 0.5 * t)
-            self.stub(f"rear_wheel_{letter}", body, side, 0.0, 0.29 * s)
+            if not self.all_steer:
+                self.stub(f"rear_wheel_{letter}", body, side, 0.0, 0.29 * s)
         self.block("hood", body, (1.4, -0.25, 0.76), (2.2, 0.25, 1.3))
         self.block("cab", body, (-0.8, -0.58, 1.08), (0.8, 0.58, float(self.rng.uniform(2.8, 3.1))))
         for x in (0.2, 1.9):
@@ -186,4 +187,8 @@ class BackhoeChassis(SteeredChassis):
             )
 
     def axle(self) -> None:
-        self.steered_axle("front", self.front_x, self.front_r, 0.7 * self.tyre_w)
+        width = 0.7 * self.tyre_w
+        self.steered_axle("front", self.front_x, self.front_r, width)
+        if self.all_steer:
+            # Wheels of one size all round, as machines with all-wheel steering have.
+            self.steered_axle("rear", 0.0, self.front_r, width, prefix="rear_", fast=True)

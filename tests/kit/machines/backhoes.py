@@ -378,10 +378,16 @@ class Backhoe(BackhoeChassis):
 
 
 def backhoe(
-    seed: int, *, parallel: bool | None = None, extending: bool | None = None, embedded: bool = False
+    seed: int,
+    *,
+    parallel: bool | None = None,
+    extending: bool | None = None,
+    embedded: bool = False,
+    all_steer: bool = False,
 ) -> Machine:
-    """The machine of a seed, in its own frame, in drawing order, with names; what is not stated is the seed's."""
+    """The machine of a seed, in its own frame, in drawing order, with names; what is not stated is the seed's.
+    `all_steer`: with a steered rear axle, too."""
     rng = np.random.default_rng([seed, 43])
     levers = bool(rng.random() < 0.5) if parallel is None else parallel
     longer = bool(rng.random() < 0.5) if extending is None else extending
-    return Backhoe(seed, parallel=levers, extending=longer, embedded=embedded).draw()
+    return Backhoe(seed, parallel=levers, extending=longer, embedded=embedded, all_steer=all_steer).draw()

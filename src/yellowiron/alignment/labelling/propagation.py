@@ -27,8 +27,8 @@ LARGE = 0.05
 """… and how much of the surface it may have: more may be a body of its own."""
 ALOOF = 0.4
 """How much less than with others a floating part goes with a hydraulic cylinder or a wheel."""
-TORN = 0.8
-"""What touches two bodies this nearly as much is for a person to look at."""
+TORN = 0.5
+"""What touches another body by more than this share of what it touches its own is for a person to look at."""
 SUNK = 10.0
 """How much more what a part is wholly inside of counts than what it only touches."""
 NAMED = 0.9

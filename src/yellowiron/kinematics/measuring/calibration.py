@@ -92,7 +92,7 @@ def _settled_by(actuator: str, mechanism: Mechanism) -> tuple[MeasurementTemplat
     """Measurements with a known specification whose steps leave the actuator at a share of its stroke."""
     found: list[MeasurementTemplate] = []
     for template in mechanism.measurements:
-        if specified(mechanism, template.specification)[0] is None:
+        if template.unpublished or specified(mechanism, template.specification)[0] is None:
             continue
         last: object = None
         for step in template.steps:

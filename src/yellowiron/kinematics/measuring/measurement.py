@@ -90,6 +90,8 @@ def _shares(bench: Bench, state: State) -> Floats:
 
 def _measured(template: MeasurementTemplate, bench: Bench, placed: frozenset[str]) -> Measurement:
     spec, example, reason = specified(bench.mechanism, template.specification)
+    if template.unpublished:
+        spec, reason = None, template.unpublished if spec is not None else ""
     model: float | None = None
     try:
         model = bench.value(template.quantity, bench.pose(template.steps))

@@ -52,6 +52,7 @@ def read_measurements(
                 unit=entry.get("unit", "m"),
                 definition=entry.get("definition", ""),
                 when=choices_of(entry, "when"),
+                unpublished=entry.get("unpublished", ""),
             )
         )
     return tuple(sites), tuple(measurements)

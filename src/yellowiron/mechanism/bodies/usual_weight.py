@@ -10,8 +10,9 @@ from yellowiron.model.template import Template
 
 _WHEELS = frozenset({"wheel", "tyre"})
 _TRACKS = frozenset({"sprocket", "idler", "roller", "carrier", "shoe"})
-_LEAST = 0.8
-"""Of its width: wheels of one axle alone are no length to judge a machine by."""
+_LEAST, _APART = 0.8, 1.3
+"""Of its width, and, on wheels, of the longest one's length: wheels of one axle alone, or of one side of it, are no
+length to judge a machine by."""
 
 
 def usual_weight(placement: Placement, template: Template) -> Known | None:
@@ -37,4 +38,7 @@ def ground_length(placement: Placement, template: Template) -> float | None:
     if not rows:
         return None
     length, width, _ = np.ptp(placement.points_of(rows), axis=0)
-    return float(length) if length >= _LEAST * width else None
+    least = _LEAST * width
+    if _WHEELS & {*kinds.values()}:
+        least = max(least, _APART * max(float(np.ptp(placement.points_of([row])[:, 0])) for row in rows))
+    return float(length) if length >= least else None

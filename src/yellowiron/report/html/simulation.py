@@ -142,6 +142,12 @@ def _axle(run: Run) -> dict[str, Any] | None:
     return _cell(f"{run['axle_angle_deg']:.2f}°", note)
 
 
+def _crab(run: Run) -> dict[str, Any] | None:
+    if run.get("crab_deg") is None:
+        return None
+    return _cell(f"{run['crab_deg']:.1f}°", f"wheels point {run['crab_geometry_deg']:.1f}°")
+
+
 def _spin(run: Run) -> dict[str, Any] | None:
     if run.get("spin_deg") is None:
         return None
@@ -164,6 +170,7 @@ _DRIVING = (
     ("Driven forward", _distance("forward")),
     ("Driven back", _distance("backward")),
     ("Turning radius at full lock", _radius),
+    ("Went crabwise, to the left", _crab),
     ("Turned on the spot", _spin),
     ("Swung", _swung),
     ("Free axle, one wheel on a block", _axle),

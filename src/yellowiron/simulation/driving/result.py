@@ -16,8 +16,10 @@ BLOCK_HEIGHT = 0.15
 """Metres."""
 DISTANCE_BAR, RADIUS_BAR, LIFTED = 0.03, 0.05, 0.02
 """Shares by which a distance and the turning radius may be off, and metres that a wheel may rise."""
-SPIN_BAR, SWING_BAR = 0.1 * SPIN, math.radians(1.0)
-"""Radians by which a turn on the spot and a swing may be off."""
+STEERED = 0.5
+"""A steering that comes less than this share of its way is held by the tyres: no turn, nor a way, is one to judge."""
+SPIN_BAR, SWING_BAR, CRAB_BAR = 0.1 * SPIN, math.radians(1.0), math.radians(2.0)
+"""Radians by which a turn on the spot, a swing and the way of a machine that crabs may be off."""
 
 
 @dataclass(frozen=True)
@@ -25,7 +27,10 @@ class DrivingResult:
     """Metres, radians, seconds. `sunk` and `creep`: how far the root came down and its speed after settling. Travel is
     the root's; `turning_radius` is that of the outermost wheel's middle, `geometry_radius` where the axles' lines meet
     at the measured lock, of a machine with a drum where dry friction lets it turn (`sliding`), none of one with an axle
-    too many that neither drives nor steers; `axes_radius`: by the axles' lines in any case. `spin`: the turn on the
+    too many that neither drives nor steers; `axes_radius`: by the axles' lines in any case; `steered`: the share of
+    its way to full lock that the steering came to rest at. `crab`: the way to the
+    left of a machine whose wheels are all turned one way, against `crab_geometry`, the mean of where they point at
+    full lock; it does not turn. `spin`: the turn on the
     spot of a machine that steers by its two sides' speeds, against `spin_geometry`, what dry friction leaves of it on
     tyres for as far as they rolled (`tracked.spin`); tracks slip. `swing`: by how much the slewing body's heading, seen
     from the ground, changed, against what its motor was told. `axle_angle`: the free axle's coordinate with one wheel
@@ -41,10 +46,13 @@ class DrivingResult:
     backward: float
     sideways: float
     distance: float = DISTANCE
+    steered: float | None = None
     lock: float | None = None
     turning_radius: float | None = None
     geometry_radius: float | None = None
     axes_radius: float | None = None
+    crab: float | None = None
+    crab_geometry: float | None = None
     spin: float | None = None
     spin_geometry: float | None = None
     swing: float | None = None
@@ -69,10 +77,13 @@ def driving_document(result: DrivingResult) -> dict[str, Any]:
         "backward_m": result.backward,
         "backward_error_percent": 100.0 * (result.backward / result.distance - 1.0),
         "sideways_m": result.sideways,
+        "steered_percent": None if result.steered is None else 100.0 * result.steered,
         "lock_deg": None if result.lock is None else math.degrees(result.lock),
         "turning_radius_m": result.turning_radius,
         "geometry_radius_m": result.geometry_radius,
         "radius_error_percent": radius,
+        "crab_deg": None if result.crab is None else math.degrees(result.crab),
+        "crab_geometry_deg": None if result.crab_geometry is None else math.degrees(result.crab_geometry),
         "spin_deg": None if result.spin is None else math.degrees(result.spin),
         "spin_geometry_deg": None if result.spin_geometry is None else math.degrees(result.spin_geometry),
         "swing_deg": None if result.swing is None else math.degrees(result.swing),
@@ -90,7 +101,11 @@ def driving_findings(result: DrivingResult) -> Iterator[Finding]:
         ("forward", result.forward, result.distance, DISTANCE_BAR),
         ("backward", result.backward, result.distance, DISTANCE_BAR),
     ]
-    if result.turning_radius is not None and result.geometry_radius is not None:
+    stuck = result.steered is not None and result.steered < STEERED
+    if stuck:
+        words = f"the steering came {100.0 * (result.steered or 0.0):.0f} % of its way to full lock: the tyres hold it"
+        yield Finding("SIM009", "warning", "steering", words, "Check its cylinder's bore and pressure.")
+    elif result.turning_radius is not None and result.geometry_radius is not None:
         figures.append(("turning radius", result.turning_radius, result.geometry_radius, RADIUS_BAR))
     for what, value, wanted, bar in figures:
         if not abs(value / wanted - 1.0) <= bar:
@@ -99,6 +114,7 @@ def driving_findings(result: DrivingResult) -> Iterator[Finding]:
     for what, turned, meant, bar in (
         ("turn on the spot", result.spin, result.spin_geometry, SPIN_BAR),
         ("swing", result.swing, result.swing_geometry, SWING_BAR),
+        ("way crabwise", None if stuck else result.crab, result.crab_geometry, CRAB_BAR),
     ):
         if turned is not None and meant is not None and not abs(turned - meant) <= bar:
             words = (

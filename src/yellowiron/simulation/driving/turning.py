@@ -1,4 +1,4 @@
-"""Where a machine turns about."""
+"""Where a machine turns about, and whether it turns at all."""
 
 from __future__ import annotations
 
@@ -10,6 +10,17 @@ from yellowiron.model.geometry import Floats
 
 _PARALLEL = 1e-3
 """Axes whose sine is less do not meet."""
+
+
+_SAME = 0.5
+"""Wheels are turned one way if each is by this share of what the most turned one is."""
+
+
+def crabs(headings: Floats) -> bool:
+    """Whether wheels that are turned to the left by `headings` (n,) are all turned one way, so that the machine goes
+    that way and does not turn."""
+    most = float(headings[np.argmax(np.abs(headings))])
+    return most != 0.0 and float((headings / most).min()) > _SAME
 
 
 def turning_centre(places: Floats, axes: Floats) -> Floats:

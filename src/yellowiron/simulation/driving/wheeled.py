@@ -21,7 +21,7 @@ from yellowiron.simulation.driving import tracked
 from yellowiron.simulation.driving.raised import raised
 from yellowiron.simulation.driving.result import BLOCK_HEIGHT, DISTANCE, DrivingResult
 from yellowiron.simulation.driving.sliding import center_of_mass, least_sliding, standing
-from yellowiron.simulation.driving.turning import turning_centre
+from yellowiron.simulation.driving.turning import crabs, turning_centre
 from yellowiron.simulation.driving.wheel import GroundWheel, driven_wheels, free_wheels, sides, top_speed
 from yellowiron.simulation.engine import Engine, Setup, coordinates, poses, tell
 from yellowiron.simulation.ground import Block, standing_bodies
@@ -40,6 +40,9 @@ _RUN = 2.0
 _LOCK = 0.998
 """Share of the steering stroke that is full lock."""
 _ROOM = 0.05
+_STILL, _MOVES, _PATIENCE = 1.0, 1e-3, 30.0
+"""A lever's joint is at rest if its mean of so many seconds is that of as many before to this share of its stroke; so
+many seconds are waited for it."""
 _DRAGS = 0.1
 """A wheel slides across by this share of its way in a turn, …"""
 _STRAIGHT = 0.999
@@ -245,36 +248,77 @@ class _Trip:
         pace = paces(self.chain, (motion,))[motion.joint]
         lock = motion.high + (_LOCK - 1.0 + SHARE) * motion.stroke
         for target in travel(0.0, lock, motion.speed, self.timestep, pace).tolist():
-            circles = self._circles({motion.joint: target}) if abs(target) > 0.1 * lock else None
+            turns = abs(target) > 0.1 * lock and not crabs(self._headings({motion.joint: target}))
+            circles = self._circles({motion.joint: target}) if turns else None
             tell(engine, {motion.joint: target, **self._speeds(0.5 * SPEED, self._factors(circles))})
             engine.step()
         circles = self._circles({motion.joint: lock})
         factors, mean = self._factors(circles), float(circles.mean())
+        headings = self._headings({motion.joint: lock})
+        if crabs(headings):
+            share = self._steered(engine, motion, {}) / lock
+            return {"steered": share, "crab": self._crab(engine), "crab_geometry": float(headings.mean())}
+        share = self._steered(engine, motion, factors) / lock
         path, locks = [], []
-        for number in range(self._steps(_TURN * mean / SPEED + _RAMP)):
-            share = 0.5 + 0.5 * min(1.0, (number + 1) * self.timestep / _RAMP)
-            tell(engine, self._speeds(share * SPEED, factors))
+        for _ in range(self._steps(_TURN * mean / SPEED)):
+            tell(engine, self._speeds(SPEED, factors))
             engine.step()
-            if number * self.timestep > _RAMP:
-                path.append(self._middles(poses(engine)))
-                locks.append(coordinates(engine))
+            path.append(self._middles(poses(engine)))
+            locks.append(coordinates(engine))
         outer = int(np.argmax(circles))
         held = dict(zip(measured, np.mean(locks, axis=0).tolist(), strict=True))
         meeting = self._circles(held)
         geometry = None if self._drags(held) else float(self._slid(held, meeting)[outer])
         self._rest(engine, 1.0)
         return {
+            "steered": share,
             "lock": self._lock(held),
             "turning_radius": circle_radius(np.array(path)[:, outer, :2]),
             "geometry_radius": geometry,
             "axes_radius": float(meeting[outer]),
         }
 
+    def _steered(self, engine: Engine, motion: Motion, factors: Mapping[str, float]) -> float:
+        """Gains speed in the turn, and rolls on until the steering has come to rest: tyres that scrub hold it back, and
+        it goes on for seconds after it was told where to. Where it stands then, metres."""
+        place = self.chain.independent.index(motion.joint)
+        window = self._steps(_STILL)
+        means = []
+        for second in range(round((_RAMP + _PATIENCE) / _STILL)):
+            were = []
+            for number in range(window):
+                share = 0.5 + 0.5 * min(1.0, (second * window + number + 1) * self.timestep / _RAMP)
+                tell(engine, self._speeds(share * SPEED, factors))
+                engine.step()
+                were.append(float(coordinates(engine)[place]))
+            means.append(float(np.mean(were)))
+            if len(means) > 1 and abs(means[-1] - means[-2]) < _MOVES * motion.stroke:
+                break
+        return means[-1]
+
+    def _crab(self, engine: Engine) -> float:
+        """Drives as far as it drove ahead, all wheels turned one way: how far to the left it goes of where its root
+        points, radians."""
+        way = np.zeros(2)
+        rotations, origins = poses(engine)
+        for _ in range(self._steps(DISTANCE / SPEED)):
+            tell(engine, self._speeds(SPEED))
+            engine.step()
+            facing, (rotations, after) = rotations[self._root], poses(engine)
+            way += (facing.T @ (after - origins)[self._root])[:2]
+            origins = after
+        self._rest(engine, 1.0)
+        return math.atan2(way[1], way[0])
+
+    def _headings(self, coordinates: Mapping[str, float]) -> Floats:
+        """How far each wheel is turned to the left seen from above, radians."""
+        given = {n: v for n, v in coordinates.items() if not any(n == w.joint.name for w in self.wheels)}
+        axes = np.array(self._axes(self.chain.reach(given)[0]))
+        return np.asarray(np.arctan2(-axes[:, 0], axes[:, 1]))
+
     def _lock(self, coordinates: Mapping[str, float]) -> float:
         """The largest angle between two wheels' axes seen from above."""
-        given = {n: v for n, v in coordinates.items() if not any(n == w.joint.name for w in self.wheels)}
-        headings = [math.atan2(a[1], a[0]) for a in self._axes(self.chain.reach(given)[0])]
-        return max(headings) - min(headings)
+        return float(np.ptp(self._headings(coordinates)))
 
     def _factors(self, circles: Floats | None) -> dict[str, float]:
         if circles is None:

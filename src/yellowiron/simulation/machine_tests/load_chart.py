@@ -4,6 +4,7 @@ tests that haul the chart's loads in in an engine. SI."""
 from __future__ import annotations
 
 import csv
+import math
 from collections.abc import Iterable, Mapping
 from dataclasses import dataclass
 from pathlib import Path
@@ -67,11 +68,14 @@ def read_load_chart(path: str | Path) -> tuple[ChartLoad, ...]:
     return tuple(found)
 
 
-def chart_stability(usd_path: str | Path, chart: Iterable[ChartLoad]) -> tuple[ChartFigure, ...]:
-    """Where the machine in a file tips beside its chart, over the front, standing as it is drawn. `YellowironError` for
-    a machine without a boom that slews and luffs."""
+def chart_stability(
+    usd_path: str | Path, chart: Iterable[ChartLoad], *, slewed: float = 0.0
+) -> tuple[ChartFigure, ...]:
+    """Where the machine in a file tips beside its chart, standing as it is drawn, `slewed` radians to the left of that:
+    drawn facing ahead, over its front, at ±π/2 over its sides. `YellowironError` for a machine without a boom that
+    slews and luffs."""
     mechanism = attached(usd.read_mechanism(usd_path))
-    return tuple(_stability(mechanism, row) for row in chart)
+    return tuple(_stability(mechanism, row, slewed) for row in chart)
 
 
 def chart_tests(usd_path: str | Path, chart: Iterable[ChartLoad]) -> tuple[MachineTest, ...]:
@@ -92,13 +96,17 @@ def chart_tests(usd_path: str | Path, chart: Iterable[ChartLoad]) -> tuple[Machi
     )  # fmt: skip
 
 
-def _stability(mechanism: Mechanism, row: ChartLoad) -> ChartFigure:
+def _stability(mechanism: Mechanism, row: ChartLoad, slewed: float) -> ChartFigure:
     bench = Bench(mechanism)
     site = next(s for s in mechanism.sites if s.name == HEAD)
     if why := _other_boom(bench, row):
         return ChartFigure(row, None, why)
     try:
         state = bench.pose(_steps(mechanism, row))
+        if slewed:
+            joint = mechanism.joint(_slewing(mechanism) or "")
+            turned = bench.chain.coordinate(state, joint.name) + slewed * math.copysign(1.0, joint.axis[2])
+            state, _ = bench.chain.reach({joint.name: turned}, start=state)
         head = place(bench.chain, state, site)
         force = tipping_force(mechanism, bench.chain, state, head, np.array([0.0, 0.0, -1.0]))
     except Unmeasurable as why:
@@ -106,9 +114,13 @@ def _stability(mechanism: Mechanism, row: ChartLoad) -> ChartFigure:
     return ChartFigure(row, force / GRAVITY + _hanging(mechanism))
 
 
+def _slewing(mechanism: Mechanism) -> str | None:
+    return next((a.joints[0].joint for a in mechanism.actuators if a.name == SLEW), None)
+
+
 def _steps(mechanism: Mechanism, row: ChartLoad) -> tuple[Mapping[str, Any], ...]:
     """The pose at a boom's length and a radius, as a measurement's steps."""
-    joint = next((a.joints[0].joint for a in mechanism.actuators if a.name == SLEW), None)
+    joint = _slewing(mechanism)
     actuators, sites = {a.name for a in mechanism.actuators}, {s.name for s in mechanism.sites}
     if joint is None or not {"luffing", "hoist"} <= actuators or not {FOOT, HEAD} <= sites:
         raise YellowironError(
