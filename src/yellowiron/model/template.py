@@ -156,7 +156,8 @@ class Wanted:
     for the whole machine's length; `in_label_of` another wanted value in whose label it is printed; `low_end_of`
     another one whose ranges it is the lower end of; `where` says in which table makers print it. `when`: choices under
     which it is missed where no sheet has it. `usual_weight`: what machines weigh, kg, for each cubic metre of the cube
-    of the length of their tracks, or of their wheels from front to rear."""
+    of the length of their tracks, or of their wheels from front to rear. `usual_length`: between which most machines of
+    the type are long as drawn, metres between the two points that are farthest apart."""
 
     name: str
     dimension: str
@@ -174,6 +175,7 @@ class Wanted:
     maximum: float | None = None
     when: Choices = field(default_factory=dict, hash=False)
     usual_weight: float | None = None
+    usual_length: tuple[float, float] | None = None
 
 
 @dataclass(frozen=True)
