@@ -154,9 +154,8 @@ class Wanted:
     words rule a statement out; `concepts` are sets of English words that say it in any language; `sections` support it;
     `mass_of` names the body (or `*`, the whole machine) whose mass it is; `length_of` is `*` for the whole machine's
     length; `in_label_of` another wanted value in whose label it is printed; `low_end_of` one whose ranges it is the
-    lower end of; `where` says in which table makers print it. `when`: choices under which it is missed. `usual_weight`:
-    what machines weigh, kg, for each cubic metre of the cube of the length of their tracks, or of their wheels from
-    front to rear. `usual_length`: from and to which most machines are long as drawn, metres, farthest points apart."""
+    lower end of. `when`: choices under which it is missed. `usual_weight`: kg for each cubic metre of the cube of the
+    length of tracks, or of wheels from front to rear. `usual_length`: of most machines, farthest points, metres."""
 
     name: str
     dimension: str
