@@ -8,12 +8,14 @@ from functools import cache
 
 import numpy as np
 import pytest
+import trimesh
 
 from kit.machines.damages import DAMAGES, base, damaged
 from kit.machines.defects import drawn, spoiled
 from kit.machines.excavators import any_features
 from kit.machines.synthetic import Machine
 from yellowiron.alignment.axes import AxisEstimate, Frame, estimate_axes, group, hinge_proposals
+from yellowiron.alignment.axes.cylinder_lines import cylinder_line, trunnion_of
 from yellowiron.alignment.axes.outlines import fitted_circle, outline_circles
 from yellowiron.alignment.axes.pivots import pivots_of, trust_in_pivots
 from yellowiron.alignment.axes.unfound import axis_findings, unfound_axes
@@ -342,3 +344,33 @@ def test_a_circle_through_points() -> None:
     center, radius = fitted_circle(np.array([[1.0, 0.0], [0.0, 1.0], [-1.0, 0.0]]) + 5.0)
     assert np.allclose(center, 5.0) and radius == pytest.approx(1.0)
     assert fitted_circle(np.array([[0.0, 0.0], [1.0, 1.0], [2.0, 2.0]]))[1] == math.inf
+
+
+def turned(mesh: trimesh.Trimesh) -> Mesh:
+    return Mesh(np.asarray(mesh.vertices), np.asarray(mesh.faces, dtype=np.int32))
+
+
+def test_a_ring_about_a_barrel_is_its_trunnion() -> None:
+    """Of the carrier, a yoke or a whole ring, or of the barrel itself; at the barrel's ends a ring is an eye's boss, or
+    the rod's gland."""
+    barrel, rod = (turned(trimesh.creation.cylinder(r, height=2.0, sections=24)) for r in (0.1, 0.05))
+    ring = trimesh.creation.annulus(0.11, 0.18, 0.2, sections=24)
+    yoke = ring.submesh([np.flatnonzero(ring.triangles_center[:, 0] < 0.05)], append=True)
+    plate = turned(trimesh.creation.box((0.2, 0.02, 0.2)))
+    for mesh, own, at, found in (
+        (ring, False, 0.3, True), (yoke, False, 0.3, True), (ring, True, -0.2, True), (yoke, True, -0.2, False),
+        (ring, False, 0.9, False), (ring, True, -0.9, False),
+    ):  # fmt: skip
+        halves = ((barrel, (0.0, 0.0, 0.0)), (rod, (0.0, 0.0, 1.2)))
+        solids = solids_from(*halves, (turned(mesh), (0.0, 0.0, at)), (plate, (0.3, 0.0, at)))
+        size = size_of(solids)
+        tube, bar = (group(solids, rows, size) for rows in ([0, 2] if own else [0], [1]))
+        carrier = group(solids, [3] if own else [2, 3], size)
+        line = cylinder_line(tube, bar)
+        assert line is not None
+        place = trunnion_of(line, tube, carrier)
+        assert (place is not None) is found
+        if place is not None:
+            center = line.origin + place[0] * line.direction
+            assert center == pytest.approx((0.0, 0.0, at), abs=0.01)
+            assert place[1] == pytest.approx(0.1, abs=0.01)

@@ -10,7 +10,7 @@ import pytest
 from kit.machines.synthetic import loader
 from yellowiron.alignment import align, to_scale
 from yellowiron.alignment.assignment.unit_scale import scaled
-from yellowiron.library import load_template
+from yellowiron.library import is_sheet_only, list_templates, load_template
 from yellowiron.model.assembly import Assembly
 from yellowiron.model.finding import Finding
 from yellowiron.model.specification import Specification, Specifications
@@ -118,3 +118,47 @@ def test_a_toy_stays_a_toy_unless_nothing_tells_its_unit(template: Template, dra
 
 def test_as_long_as_machines_are_is_left_alone(template: Template, drawn: Assembly) -> None:
     assert to_scale(drawn, template, Specifications()) is drawn
+
+
+def without_a_unit(assembly: Assembly, numbers: float) -> Assembly:
+    """The model as a file without a unit gives it, a metre written as so many `numbers`, these taken for metres."""
+    remark = Finding("CAD009", "warning", "model.stl", "The format has no unit of length")
+    return replace(scaled(assembly, numbers), unit=1.0, findings=(remark,))
+
+
+@pytest.mark.parametrize(
+    ("numbers", "name"),
+    [(1e3, "millimetres"), (1e2, "centimetres"), (1 / 0.0254, "inches"), (1 / 0.3048, "feet")],
+)
+def test_what_machines_usually_measure_tells_the_unit(
+    template: Template, drawn: Assembly, numbers: float, name: str
+) -> None:
+    """Of those that could be: 26 feet are 26 m, too, which a loader could just be."""
+    model = to_scale(without_a_unit(drawn, numbers), template, Specifications())
+    assert size(model) == pytest.approx(size(drawn), rel=1e-9)
+    assert f"its numbers are taken for {name}" in model.findings[-1].message
+    metres = without_a_unit(drawn, 1.0)
+    assert to_scale(metres, template, Specifications()) is metres
+
+
+def test_a_unit_that_was_applied_twice(template: Template, drawn: Assembly) -> None:
+    for numbers, name in ((1e-3, "millimetres"), (1e-2, "centimetres")):
+        model = to_scale(without_a_unit(drawn, numbers), template, Specifications())
+        assert size(model) == pytest.approx(size(drawn), rel=1e-9)
+        assert f"metres that were read as {name}" in model.findings[-1].message
+
+
+def test_no_unit_explains_it(template: Template, drawn: Assembly) -> None:
+    """A game's own units: as long as such machines usually are, which is said to be a guess."""
+    model = to_scale(without_a_unit(drawn, 0.16), template, Specifications())
+    assert 0.6 * size(drawn) < size(model) < 1.6 * size(drawn)
+    assert "a guess" in model.findings[-1].message
+
+
+def test_every_type_has_a_usual_length() -> None:
+    """A dozer is long with its blade or without; a crane is as long as its boom."""
+    for kind in list_templates():
+        if is_sheet_only(kind):
+            continue
+        usual = [w.usual_length for w in load_template(kind).wanted if w.usual_length is not None]
+        assert len(usual) == 1 and 2.0 < usual[0][0] < usual[0][1] < 80.0, kind

@@ -151,12 +151,11 @@ class Material:
 class Wanted:
     """A value the template can ask a sheet for. `dimension` is one of: length, angle, mass, pressure, flow, volume,
     force, torque, power, speed, angular_speed, time, count. `synonyms` by language code (`en`, `de`, …); `forbidden`
-    words rule a statement out; `concepts` are sets of English words that say it in any language; `sections` are
-    headings that support it; `mass_of` names the body (or `*`, the whole machine) whose mass it is; `length_of` is `*`
-    for the whole machine's length; `in_label_of` another wanted value in whose label it is printed; `low_end_of`
-    another one whose ranges it is the lower end of; `where` says in which table makers print it. `when`: choices under
-    which it is missed where no sheet has it. `usual_weight`: what machines weigh, kg, for each cubic metre of the cube
-    of the length of their tracks, or of their wheels from front to rear."""
+    words rule a statement out; `concepts` are sets of English words that say it in any language; `sections` support it;
+    `mass_of` names the body (or `*`, the whole machine) whose mass it is; `length_of` is `*` for the whole machine's
+    length; `in_label_of` another wanted value in whose label it is printed; `low_end_of` one whose ranges it is the
+    lower end of. `when`: choices under which it is missed. `usual_weight`: kg for each cubic metre of the cube of the
+    length of tracks, or of wheels from front to rear. `usual_length`: of most machines, farthest points, metres."""
 
     name: str
     dimension: str
@@ -174,6 +173,7 @@ class Wanted:
     maximum: float | None = None
     when: Choices = field(default_factory=dict, hash=False)
     usual_weight: float | None = None
+    usual_length: tuple[float, float] | None = None
 
 
 @dataclass(frozen=True)

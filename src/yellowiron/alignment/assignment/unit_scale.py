@@ -18,12 +18,21 @@ from yellowiron.model.assembly import Assembly, DeclaredJoint
 from yellowiron.model.finding import Finding
 from yellowiron.model.geometry import CylinderFeature, Floats, PlaneFeature, Shape, SphereFeature
 from yellowiron.model.specification import Specifications
-from yellowiron.model.template import Template, Wanted
+from yellowiron.model.template import Template
 
 POSES = (0.55, 1.9)
 """The longest extent, which is a diagonal, as a share of the overall length: the sheet's machine has its arms folded,
 the drawn one may have them anywhere."""
 UNITS = {"millimetres": 1e-3, "centimetres": 1e-2, "inches": 0.0254, "feet": 0.3048, "metres": 1.0}
+UNLIKELY = {"millimetres": 0.0, "metres": 0.0, "centimetres": 1.5, "inches": 1.5, "feet": 4.0}
+"""How much less than millimetres a model without a unit is in these: minus the logarithm of how often."""
+APPLIED_TWICE = {"millimetres": 1e3, "centimetres": 1e2}
+"""Metres that were taken for these, and written as metres: what a number is then."""
+TWICE = 4.0
+NO_UNIT = 8.0
+"""So unlikely is that no unit explains a length: four standard deviations from what is usual."""
+NEAR = 4.0
+"""Units that are no more unlikely than this beside the likeliest are told of."""
 TOY = 0.05
 """Metres: no toy is drawn so small."""
 AGREE = 0.01
@@ -34,7 +43,7 @@ ENOUGH = 3
 
 def to_scale(assembly: Assembly, template: Template, specifications: Specifications) -> Assembly:
     """The model in metres, by the sheet's overall length (the template's value that is `length_of` the whole machine),
-    with a finding (ALN014) if that changed it. Without that on a sheet, by how long machines of the type can be.
+    with a finding (ALN014) if that changed it. Without that on a sheet, by how long machines of the type usually are.
 
     A length that is off by more than a pose can explain means a wrong unit: that unit is taken with which the length
     comes out. If there is none, the diameters of the hydraulic cylinders give the scale; without these the length
@@ -43,7 +52,7 @@ def to_scale(assembly: Assembly, template: Template, specifications: Specificati
     wanted = next((w for w in template.wanted if w.length_of == "*"), None)
     length = specifications.number(wanted.name) if wanted is not None else None
     if length is None or length <= 0.0:
-        return assembly if wanted is None else _to_usual_size(assembly, wanted)
+        return _to_usual_size(assembly, template)
     drawn = _extent(assembly)
     if drawn <= 0.0 or POSES[0] <= drawn / length <= POSES[1]:
         return assembly
@@ -62,25 +71,41 @@ def to_scale(assembly: Assembly, template: Template, specifications: Specificati
     return _rescaled(assembly, factor, f"{read}, and no unit explains that: scaled by {factor:.4g}, which is a guess")
 
 
-def _to_usual_size(assembly: Assembly, wanted: Wanted) -> Assembly:
-    """The model in the unit with which it is about as long as machines of its type are, if it cannot be one as it is.
-    Small ones may be toys, unless nothing says what their unit is."""
-    if not wanted.minimum or not wanted.maximum:
+def _to_usual_size(assembly: Assembly, template: Template) -> Assembly:
+    """The model in the unit with which it is about as long as machines of its type usually are, if it cannot be one as
+    it is, or nothing says its unit. What is small in a unit that its file states may be a toy."""
+    wanted = next((w for w in template.wanted if w.usual_length is not None or w.length_of == "*"), None)
+    if wanted is None or not wanted.minimum or not wanted.maximum:
         return assembly
+    usual = wanted.usual_length or (wanted.minimum, wanted.maximum)
     drawn = _extent(assembly)
-    least, most = POSES[0] * wanted.minimum, POSES[1] * wanted.maximum
     unknown = any(f.code == "CAD009" and f.severity == "warning" for f in assembly.findings)
-    if drawn <= 0.0 or (drawn <= most and not (unknown and drawn < least) and drawn >= TOY):
+    if drawn <= 0.0 or (not unknown and TOY <= drawn <= POSES[1] * wanted.maximum):
         return assembly
-    middle = math.sqrt(wanted.minimum * wanted.maximum)
-    lengths = {name: drawn * unit / assembly.unit for name, unit in UNITS.items()}
-    fitting = {name: length for name, length in lengths.items() if least <= length <= most}
-    if not fitting:
-        return assembly
-    name, *others = sorted(fitting, key=lambda name: abs(math.log(fitting[name] / middle)))
-    words = f"The CAD model is {drawn:.4g} m long, no machine of its type is: its numbers are taken for {name}"
-    words += "".join(f", in {other} it would be {fitting[other]:.3g} m long" for other in others)
-    return _rescaled(assembly, fitting[name] / drawn, words)
+    middle = math.sqrt(usual[0] * usual[1])
+    # Most of them are between the two: 95 % of a normal distribution of the logarithm.
+    spread = math.log(usual[1] / usual[0]) / 4.0
+
+    def unlikely(factor: float) -> float:
+        return 0.5 * (math.log(factor * drawn / middle) / spread) ** 2
+
+    units = {name: unit / assembly.unit for name, unit in UNITS.items()}
+    doubt = {name: UNLIKELY[name] + unlikely(factor) for name, factor in units.items()}
+    name, *others = sorted(doubt, key=lambda name: doubt[name])
+    read = f"The CAD model is {drawn:.4g} m long, "
+    read += "and no unit is stated" if unknown else "no machine of its type is"
+    if doubt[name] <= NO_UNIT:
+        words = f"{read}: its numbers are taken for {name}"
+        near = [other for other in others if doubt[other] - doubt[name] <= NEAR]
+        words += "".join(f", in {other} it would be {units[other] * drawn:.3g} m long" for other in near)
+        return assembly if abs(units[name] - 1) < 1e-9 else _rescaled(assembly, units[name], words)
+    again = {name: factor / assembly.unit for name, factor in APPLIED_TWICE.items()}
+    name = min(again, key=lambda name: unlikely(again[name]))
+    if TWICE + unlikely(again[name]) <= NO_UNIT:
+        words = f"{read}: its numbers are taken for metres that were read as {name} before"
+        return _rescaled(assembly, again[name], words)
+    words = f"{read}, and none explains it: scaled by {middle / drawn:.4g} to {middle:.3g} m, which is usual: a guess"
+    return _rescaled(assembly, middle / drawn, words)
 
 
 def _rescaled(assembly: Assembly, factor: float, words: str) -> Assembly:

@@ -7,7 +7,7 @@ from collections.abc import Iterable
 
 import numpy as np
 
-from yellowiron.alignment.axes.bodies import Body, rounds_of
+from yellowiron.alignment.axes.bodies import Body, rounds_of, surface_points
 from yellowiron.alignment.axes.values import Line, plane_of
 from yellowiron.alignment.features.solids import Cyl
 from yellowiron.model.geometry import Floats
@@ -19,6 +19,14 @@ LONG = 1.0
 ALONG = math.cos(math.radians(12.0))
 """Cosine up to which something round is along the cylinder's length."""
 SAME_WAY = math.cos(math.radians(2.0))
+SHORT, MIDDLE = 0.4, 0.2
+"""A ring about a barrel is no longer than this share of the barrel, and its middle is no nearer to either end: rings
+there are an eye's boss and the rod's gland."""
+SECTORS, YOKE = 8, 5
+"""A ring is all the way round: it has surface in each of so many sectors; the carrier's may be a yoke, which has some
+in so many …"""
+WITHIN, WITHOUT, WIDE = 0.7, 1.1, 4.0
+"""… none nearer to the line than this share of the barrel's radius, some farther than this, and none than this."""
 
 
 def cylinder_line(barrel: Body | None, rod: Body | None) -> Line | None:
@@ -49,6 +57,28 @@ def cylinder_line(barrel: Body | None, rod: Body | None) -> Line | None:
     off = off - np.outer(off @ direction, direction)
     width = float(np.percentile(np.linalg.norm(off, axis=1), 60))
     return Line(origin, direction, across, angle, width, how)
+
+
+def trunnion_of(line: Line, barrel: Body, carrier: Body) -> tuple[float, float] | None:
+    """Where along a cylinder's line the ring is that holds its barrel between its ends, and half its length (metres):
+    a trunnion, of the carrier or of the barrel itself. None where there is no such ring, or several."""
+    own = line.along(barrel.samples)
+    low, high = float(own.min()), float(own.max())
+    plane = plane_of(line.direction)
+    found = []
+    for solid, least in (*((s, YOKE) for s in carrier.solids), *((s, SECTORS) for s in barrel.solids)):
+        along = line.along(solid.points)
+        start, end = float(along.min()), float(along.max())
+        inner = low + MIDDLE * (high - low) < 0.5 * (start + end) < high - MIDDLE * (high - low)
+        if not inner or end - start > SHORT * (high - low):
+            continue
+        flat = (surface_points(solid, 0.5 * line.width) - line.origin) @ plane.T
+        radius = np.linalg.norm(flat, axis=1)
+        sectors = np.floor(SECTORS * (np.arctan2(flat[:, 1], flat[:, 0]) / math.tau + 0.5)).astype(int) % SECTORS
+        around = len(np.unique(sectors)) >= least
+        if around and radius.min() > WITHIN * line.width and WITHOUT * line.width < radius.max() < WIDE * line.width:
+            found.append((0.5 * (start + end), 0.5 * (end - start)))
+    return found[0] if len(found) == 1 else None
 
 
 def _long_way(bodies: list[Body]) -> Floats:

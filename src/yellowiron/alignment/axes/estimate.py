@@ -10,7 +10,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from yellowiron.alignment.axes.bodies import Body, bodies_of
-from yellowiron.alignment.axes.cylinder_lines import cylinder_line
+from yellowiron.alignment.axes.cylinder_lines import cylinder_line, trunnion_of
 from yellowiron.alignment.axes.directions import (
     Direction,
     completed,
@@ -40,6 +40,9 @@ _NARROW = 4.0
 """What is so many times longer than wide slides along its length."""
 _NEARLY, _LEANING = 0.7, 3.0
 """A ball's pin lies across its cylinder, to this cosine; to so many degrees, one of the machine's directions."""
+RING_QUALITY, _RING_OFF = 0.6, 0.3
+"""How much a ring about a barrel, between its ends, speaks for its trunnion; its axis is off the ring's middle by this
+share of half its length."""
 PIVOT_TAKEN = 0.4
 """Quality from which a hinge that is drawn at a pivot of the scene's tree has it to itself."""
 
@@ -245,7 +248,17 @@ def _hinge(
         break
     bars = bars_between(bodies[a], bodies[b], _others(bodies, (a, b), loose), way.vector)
     clues = replace(clues, bars=bars)
-    return hinge_candidates(bodies[a], bodies[b], way.vector, clues, lean=way.angle)
+    found = hinge_candidates(bodies[a], bodies[b], way.vector, clues, lean=way.angle)
+    barrel = next((name for name in (a, b) if kinds[name] == "barrel"), None)
+    if barrel is None or clues.line is None:
+        return found
+    ring = trunnion_of(clues.line, bodies[barrel], bodies[b if barrel == a else a])
+    if ring is None or found[0].quality >= RING_QUALITY:
+        return found
+    place, half = ring
+    origin = clues.line.origin + place * clues.line.direction
+    across = max(_RING_OFF * half, clues.line.across)
+    return [Candidate(origin, way.vector, across, way.angle, RING_QUALITY, "the ring about the barrel"), *found]
 
 
 def _left_pivots(

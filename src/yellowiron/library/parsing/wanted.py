@@ -64,9 +64,20 @@ def read_wanted(document: Document, roles: tuple[Role, ...]) -> tuple[Wanted, ..
                 maximum=bounds[1],
                 when=choices_of(entry, "when"),
                 usual_weight=entry.get("usual_weight", {}).get("per_cubic_metre"),
+                usual_length=_usual_length(entry, document, name),
             )
         )
     return tuple(wanted)
+
+
+def _usual_length(entry: Mapping[str, Any], document: Document, name: str) -> tuple[float, float] | None:
+    if (usual := entry.get("usual_length")) is None:
+        return None
+    where = document.at(name, "usual_length")
+    least, most = (quantity(usual[end], "length", where=where) for end in ("least", "most"))
+    if not 0.0 < least < most:
+        raise TemplateError("The least length is not less than the most", where=where, hint="Exchange the two.")
+    return least, most
 
 
 def complete(document: Document) -> Document:
