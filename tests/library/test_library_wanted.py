@@ -165,6 +165,17 @@ def test_an_entry_states_only_what_differs_from_the_common_one(tmp_path: Path) -
     assert (mine.use, mine.where, mine.dimension) == (plain.use, plain.where, "power")
 
 
+def test_a_usual_length_is_from_the_shorter_to_the_longer(tmp_path: Path) -> None:
+    entry = {"dimension": "length", "usual_length": {"least": "4 m", "most": "1600 cm", "source": "a sheet"}}
+    (tmp_path / "wanted.json").write_text(json.dumps({"Length": entry}))
+    (read,) = library.load_template(tmp_path, sheet_only=True).wanted
+    assert read.usual_length == pytest.approx((4.0, 16.0))
+    entry["usual_length"] = {"least": "16 m", "most": "4 m", "source": "a sheet"}
+    (tmp_path / "wanted.json").write_text(json.dumps({"Length": entry}))
+    with pytest.raises(TemplateError, match="least length"):
+        library.load_template(tmp_path, sheet_only=True)
+
+
 @pytest.mark.parametrize("equipment_type", TYPES)
 def test_a_copy_needs_nothing_of_the_library(equipment_type: str, tmp_path: Path) -> None:
     folder = library.copy_template(equipment_type, tmp_path / equipment_type)
