@@ -159,7 +159,7 @@ def _glyphs(textpage: Any, place: Place, size_of_page: tuple[float, float]) -> t
             if code == 0x20 and found:
                 found[-1].ends = True
             continue
-        if code == 0x20 or code == 0xA0:
+        if code in (0x09, 0x20, 0xA0):
             found.append(_Glyph(" ", 0, 0, 0, 0, False))
             continue
         if not pdfium.FPDFText_GetLooseCharBox(textpage, index, rect):

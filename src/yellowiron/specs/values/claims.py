@@ -270,7 +270,7 @@ def _labels_of_each(text: str, label: str, readings: Sequence[Reading], kept: Se
     """The labels of each reading: one part of a label that names alternatives for each of numbers with slashes between
     them, all parts and the whole for a number that is the only one."""
     whole = [[label]] * len(kept)
-    if not kept or len(kept) != len(readings) or any(len(r.numbers) != 1 or len(r.partner) > 1 for r in kept):
+    if not kept or any(len(r.numbers) != 1 or len(r.partner) > 1 for r in kept):
         return whole
     if len(kept) == 1:
         return [[label, *(opposed(label) or standard_of_two(label))]]
