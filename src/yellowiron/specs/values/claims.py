@@ -274,8 +274,10 @@ def _labels_of_each(text: str, label: str, readings: Sequence[Reading], kept: Se
         return whole
     if len(kept) == 1:
         return [[label, *(opposed(label) or standard_of_two(label))]]
-    ends = [max(q.end for q in (*r.numbers, *r.partner)) for r in kept]
-    between = [text[end : r.numbers[0].start] for end, r in zip(ends, kept[1:], strict=False)]
+    starts = [r.numbers[0].start for r in kept[1:]]
+    both = zip(kept, starts, strict=False)  # "23 km/h / 25 km/h (14.3 mph / 15.5 mph)": the partner may stand behind all
+    ends = [max(q.end for q in (*r.numbers, *r.partner) if q.end <= start) for r, start in both]
+    between = [text[end:start] for end, start in zip(ends, starts, strict=True)]
     if not all(re.fullmatch(r"[^\W\d()]*\)?\s*[/／]\s*[+]?", part.strip()) for part in between):
         return whole
     return [[own] for own in alternatives(label, len(kept))] or whole

@@ -57,7 +57,8 @@ def merged(level: Sequence[DrawnRule]) -> list[DrawnRule]:
     found: list[DrawnRule] = []
     for rule in sorted(level, key=lambda r: (round(r.top), r.x0)):
         last = found[-1] if found else None
-        if last is not None and abs(last.top - rule.top) <= 1 and rule.x0 <= last.x1 + SNAP:
+        touch = last is not None and last.x0 - SNAP <= rule.x1 and rule.x0 <= last.x1 + SNAP
+        if last is not None and touch and abs(last.top - rule.top) <= 1:
             found[-1] = DrawnRule(min(last.x0, rule.x0), last.top, max(last.x1, rule.x1), last.top)
         else:
             found.append(rule)

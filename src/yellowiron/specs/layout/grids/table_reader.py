@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import re
+from collections import Counter
 from collections.abc import Iterator, Sequence
 from dataclasses import dataclass, replace
 from itertools import pairwise
@@ -220,8 +221,8 @@ def _without_keys(grid: TableGrid) -> TableGrid:
         keys.update(c for c in own if not _LISTED.fullmatch(c.text))  # "s/e/l" says what its three values are
     numbers_of = {c.rows: c.text for c in keys if c.text[0].isdigit()}
     again = [c for c in grid.cells if c not in keys and c.text and numbers_of.get(c.rows) == c.text]
-    if len(again) >= MANY and len({c.columns for c in again}) == 1:  # "1.9 | Wheelbase | 2800 | 1.9"
-        keys.update(again)
+    for columns, count in Counter(c.columns for c in again).items():  # "1.9 | Wheelbase | 2800 | 1.9"
+        keys.update(c for c in again if c.columns == columns and count >= MANY)
     return grid.emptied(keys) if keys else grid
 
 
