@@ -280,7 +280,7 @@ def _labels_of_each(text: str, label: str, readings: Sequence[Reading], kept: Se
     between = [text[end:start] for end, start in zip(ends, starts, strict=True)]
     if not all(re.fullmatch(r"[^\W\d()]*\)?\s*[/／]\s*[+]?", part.strip()) for part in between):
         return whole
-    return [[own] for own in alternatives(label, len(kept))] or whole
+    return [[own] for own in alternatives(label, len(kept)) or enumerated(label, len(kept))] or whole
 
 
 def spelled_out(text: str, unit: str) -> tuple[str, str]:
