@@ -425,7 +425,7 @@ def _checked(claim: Claim) -> Claim:
     quantity, partner = claim.quantity, claim.partner
     if partner is None:
         return claim
-    if same(quantity, partner):
+    if same(quantity, partner) or _rounded_for_each(quantity, partner):
         return replace(claim, quantity=replace(quantity, other=None))
     if quantity.other is not None:
         swapped = replace(quantity, value=quantity.other, half=0.5, other=None)
@@ -483,3 +483,15 @@ def _metric_first(a: Claim, b: Claim) -> Claim:
     if unit is not None and unit.system == "metric":
         return replace(a, partner=b.quantity)
     return replace(b, partner=a.quantity)
+
+
+_ROUNDED = 1.5e-3
+"""Makers round to 5 kg here and to 5 lb there: what differs by less is the same."""
+
+
+def _rounded_for_each(a: Quantity, b: Quantity) -> bool:
+    """Whether two quantities are the same, rounded in each system, or one is in metric horsepower that are called
+    "hp"."""
+    metric = (replace(q, unit="PS") if q.printed and q.printed.name == "horsepower" else q for q in (a, b))
+    close = a.dimension == b.dimension and abs(a.si_value - b.si_value) <= _ROUNDED * abs(a.si_value)
+    return close or same(*metric)
