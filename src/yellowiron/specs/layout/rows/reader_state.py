@@ -45,6 +45,10 @@ class ReaderState:
     values_in_row: int = 0
     headings: list[Heading] = field(default_factory=list)
     orphans: list[int] = field(default_factory=list)
+    nearer: bool = False
+    """Whether the row that is read is nearer to the one above than to the next."""
+    given: TextLine | None = None
+    """The line that names the values above it, and none below."""
     last: tuple[Sequence[TextLine], range, str] | None = None
     beside: Beside | None = None
     corner: TextPiece | None = None

@@ -87,15 +87,20 @@ def _read_nth_row(
         return
     before = len(found)
     number = first_row + before + index
+    state.nearer = bool(index and following) and _between(rows[index - 1], row) < _between(row, following[0])
     ordered = sorted(row, key=lambda line: line.top)
     if len(row) == 2 and _captioned(ordered[:1], ordered[1:], ()):
         _read_captions(column.page, ordered[0], ordered[1], state, number, found)
-    elif index and _captioned(rows[index - 1], row, following):
+    elif index and rows[index - 1][0] is not state.given and _captioned(rows[index - 1], row, following):
         above = _broken_caption(rows[:index])
         _read_captions(column.page, rows[index - 1][0], row[0], state, number, found, above)
     else:
         _read_row(column, row, state, number, found)
         state.last = (row, range(before, len(found)), row[0].pieces[0].text) if len(found) > before else None
+
+
+def _between(above: Sequence[TextLine], below: Sequence[TextLine]) -> float:
+    return min(line.top for line in below) - max(line.bottom for line in above)
 
 
 def _enter_margin(column: TextColumn, row: Sequence[TextLine], margin: Sequence[Beside], state: ReaderState) -> None:
@@ -230,7 +235,8 @@ def _continue_label(
 
 
 def _label_orphans(line: TextLine, state: ReaderState, found: list[Statement]) -> bool:
-    """Gives values without any label the words right beneath them: a card with a big number over its name."""
+    """Gives values without any label the words right beneath them: a card with a big number over its name, or what is
+    nearer to them than to the next row."""
     orphans, state.orphans = state.orphans, []
     if not orphans or len(line.pieces) != len(orphans):
         return False
@@ -238,7 +244,8 @@ def _label_orphans(line: TextLine, state: ReaderState, found: list[Statement]) -
         box = found[index].box
         height = box[3] - box[1]
         overlaps = piece.x0 < box[2] and box[0] < piece.x1
-        if kind_of(piece) != "text" or not overlaps or piece.box[1] - box[3] > height or piece.size > 0.85 * height:
+        small = piece.size <= 0.85 * height or state.nearer
+        if kind_of(piece) != "text" or not overlaps or piece.box[1] - box[3] > height or not small:
             return False
     for index, piece in zip(orphans, line.pieces, strict=True):
         statement = found[index]
@@ -251,6 +258,7 @@ def _label_orphans(line: TextLine, state: ReaderState, found: list[Statement]) -
             quote=f"{statement.text} … {piece.text}",
             example=statement.example or bool(EXAMPLE.search(piece.text)),
         )
+    state.given = line
     return True
 
 
