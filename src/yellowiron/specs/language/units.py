@@ -38,7 +38,7 @@ _TABLE = """
 millimeter        |0.001                |length       |metric  |mm|MM|millimet(?:er|re)s?
 centimeter        |0.01                 |length       |metric  |cm
 meter             |1.0                  |length       |metric  |m|met(?:er|re)s?|metros?|mtr
-inch              |0.0254               |length       |imperial|in\\.?|IN\\.|inch(?:es)?|INCH(?:ES)?|pulg\\.?|pulgadas?|pouces?|Zoll|"|″|”|''|′′
+inch|0.0254|length|imperial|in\\.?|IN\\.|inch(?:es)?|INCH(?:ES)?|pulg\\.?|pulgadas?|pouces?|Zoll|"|″|”|''|′′
 foot              |0.30479999999999996  |length       |imperial|ft\\.?|FT\\.?|feet|FEET|foot|pies?|pieds?|'|′|’
 kilogram          |1.0                  |mass         |metric  |kgs?|Kgs?|KG|kilograms?
 metric_ton        |1000.0               |mass         |metric  |t|tonnes?|mt|metric tons?

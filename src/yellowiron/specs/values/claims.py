@@ -275,7 +275,7 @@ def _labels_of_each(text: str, label: str, readings: Sequence[Reading], kept: Se
     if len(kept) == 1:
         return [[label, *(opposed(label) or standard_of_two(label))]]
     starts = [r.numbers[0].start for r in kept[1:]]
-    both = zip(kept, starts, strict=False)  # "23 km/h / 25 km/h (14.3 mph / 15.5 mph)": the partner may stand behind all
+    both = zip(kept, starts, strict=False)  # "23 km/h / 25 km/h (14.3 mph / 15.5 mph)": what agrees may stand behind
     ends = [max(q.end for q in (*r.numbers, *r.partner) if q.end <= start) for r, start in both]
     between = [text[end:start] for end, start in zip(ends, starts, strict=True)]
     if not all(re.fullmatch(r"[^\W\d()]*\)?\s*[/／]\s*[+]?", part.strip()) for part in between):

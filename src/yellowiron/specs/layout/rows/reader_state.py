@@ -7,7 +7,6 @@ from dataclasses import dataclass, field
 
 from yellowiron.specs.layout.rows.headings import Heading
 from yellowiron.specs.layout.rows.lines import TextBlock, TextLine
-from yellowiron.specs.layout.rows.margin import Beside
 from yellowiron.specs.layout.statement import TextPiece
 from yellowiron.specs.pages.words import Page
 
@@ -50,7 +49,6 @@ class ReaderState:
     given: TextLine | None = None
     """The line that names the values above it, and none below."""
     last: tuple[Sequence[TextLine], range, str] | None = None
-    beside: Beside | None = None
     corner: TextPiece | None = None
     """The part that a table's corner names, beside the heads of its columns ("Blade | 6S | 6SU")."""
     worded: tuple[TextPiece, ...] = ()

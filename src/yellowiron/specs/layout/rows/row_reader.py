@@ -10,7 +10,7 @@ from yellowiron.specs.language.numbers import read
 from yellowiron.specs.layout.rows.cells import ValueCell, statement_of
 from yellowiron.specs.layout.rows.headings import Heading, bar_under, bars_of, body_size
 from yellowiron.specs.layout.rows.lines import TextBlock, TextLine, bands
-from yellowiron.specs.layout.rows.margin import Beside, parted_margin, without_keys
+from yellowiron.specs.layout.rows.margin import without_keys
 from yellowiron.specs.layout.rows.prose import paragraphs_of, read_paragraph
 from yellowiron.specs.layout.rows.reader_state import ReaderState, TextColumn
 from yellowiron.specs.layout.rows.row_bands import split_if_separate
@@ -39,11 +39,9 @@ def read_block(
     column = TextColumn(page, block, _type_size(page, block))
     paragraphs = paragraphs_of(block.lines)
     kept, beside = _without_paragraphs(block, paragraphs)
-    lines, margin = parted_margin(without_keys(kept), page.rules)
-    rows = unfolded([r for band in bands(lines, page.rules, bars_of(page, block), block.x0, block.x1)
+    rows = unfolded([r for band in bands(without_keys(kept), page.rules, bars_of(page, block), block.x0, block.x1)
                      for r in split_if_separate(band)])  # fmt: skip
-    for index, row in enumerate(rows):
-        _enter_margin(column, row, margin, state)
+    for index in range(len(rows)):
         _read_nth_row(column, rows, index, state, first_row, found)
     for paragraph in paragraphs:
         headings = [h for h in state.headings if h.bottom <= paragraph[0].top + 2]
@@ -101,23 +99,6 @@ def _read_nth_row(
 
 def _between(above: Sequence[TextLine], below: Sequence[TextLine]) -> float:
     return min(line.top for line in below) - max(line.bottom for line in above)
-
-
-def _enter_margin(column: TextColumn, row: Sequence[TextLine], margin: Sequence[Beside], state: ReaderState) -> None:
-    """Makes what stands in the margin beside a row its section or, where it looks like a label, its sub-heading."""
-    middle = (min(line.top for line in row) + max(line.bottom for line in row)) / 2
-    beside = next((b for b in margin if b.top <= middle < b.bottom), None)
-    if beside is state.beside:
-        return
-    state.beside = beside
-    state.pending, state.indented = [], False
-    if beside is None:
-        state.context = []
-    elif beside.heading:
-        text = joined(p.text for p in beside.pieces)
-        state.open_section(column.heading(beside.top, text), ())
-    else:
-        state.context = list(beside.pieces)
 
 
 def _read_row(
