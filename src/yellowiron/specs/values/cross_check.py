@@ -33,7 +33,7 @@ _UNITS = {**BARE_UNITS, "angle": ("°",), "time": ("s",)}
 _AROUND: tuple[Side, ...] = ("left", "above", "below")
 _WITHIN: tuple[Side, ...] = ("behind", "item", "cell")
 """What speaks only where the words around a value do not."""
-_SIDES = (*_AROUND, *_WITHIN)
+_SIDES = (*_AROUND, "under", *_WITHIN)
 _SAID_BY_UNIT = {
     "angular_speed": "speed", "flow": "flow", "force": "force", "length": "length", "mass": "weight", "power": "power",
     "pressure": "pressure", "time": "time",
@@ -72,7 +72,7 @@ def second_reading(
     taken = [(seen, value) for one in values.values() if one.status != "missing" for seen, value in _seen(one)]
     found = dict(values)
     readings, chosen = _undisputed(list(asked.values()), near, config)
-    under = {n: one for n, one in readings["below"].items() if n not in readings["above"] and _names(one, values[n])}
+    under = {n: one for n, one in readings["under"].items() if n not in readings["above"] and _names(one, values[n])}
     for name, one in (readings["left"] | under).items():
         quantity, _ = settled(asked[name], one.claim)
         told = quantity.unit_printed or name in under

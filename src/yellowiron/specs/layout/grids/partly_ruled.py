@@ -16,6 +16,8 @@ from yellowiron.specs.layout.statement import is_unit, kind_of, looks_like_value
 
 _LEVEL = 2.5
 """Points within which the lines of a row lie."""
+_APART = 0.3
+"""Share of a cell's width that lies between a label and its value in it."""
 _FEWEST, _MOST_OF, _ACROSS = 3, 0.5, 0.2
 """So many cells, and such a share of a column's, have words on both sides of what parts it; at most such a share have
 words across it."""
@@ -101,11 +103,12 @@ def with_columns(grid: TableGrid) -> TableGrid:
 
 
 def with_values_apart(grid: TableGrid) -> TableGrid:
-    """The table with the cells parted that span columns and hold words on both sides of the walls of other rows, as
-    rows without walls under rows with them do."""
+    """The table with the cells parted that span columns and hold words on both sides of the walls of other rows, or a
+    label at their left and its value at their right, as rows without walls under rows with them do."""
     walls = {first: c.box[0] for c in grid.cells for first in c.columns[:1]}
     often = Counter(c.columns for c in grid.cells if len(c.pieces) > 1)
-    cells = [part for c in grid.cells for part in (_walled(c, walls) if often[c.columns] >= _FEWEST else (c,))]
+    parts = [part for c in grid.cells for part in (_walled(c, walls) if often[c.columns] >= _FEWEST else (c,))]
+    cells = [part for c in parts for part in (_halves(c) if c.columns[1] - c.columns[0] > 1 else (c,))]
     return replace(grid, cells=tuple(cells))
 
 
@@ -123,6 +126,24 @@ def _walled(cell: Cell, walls: Mapping[int, float]) -> Iterator[Cell]:
             yield from _walled(rest, walls)
             return
     yield cell
+
+
+def _halves(cell: Cell) -> tuple[Cell, ...]:
+    pieces = sorted(cell.pieces, key=lambda p: p.x0)
+    ends = list(itertools.accumulate((p.x1 for p in pieces), max))
+    gaps = [(after.x0 - end, index + 1) for index, (end, after) in enumerate(zip(ends, pieces[1:], strict=False))]
+    (left, top, right, bottom), (first, last) = cell.box, cell.columns
+    wide, at = max(gaps, default=(0.0, 0))
+    if wide < _APART * (right - left) or not all(kind_of(p) == "text" for p in pieces[:at]):
+        return (cell,)
+    if not any(looks_like_value(p.bare) for p in pieces[at:]):
+        return (cell,)
+    x = (ends[at - 1] + pieces[at].x0) / 2
+    sides = ((left, top, x, bottom), (first, first + 1)), ((x, top, right, bottom), (first + 1, last))
+    return tuple(
+        replace(cell, box=box, columns=columns, lines=tuple(lines_of([w for p in part for w in p.words])))
+        for (box, columns), part in zip(sides, (pieces[:at], pieces[at:]), strict=True)
+    )
 
 
 def _gap(grid: TableGrid, column: int) -> float | None:

@@ -57,10 +57,10 @@ def read_grid(
     """The statements of a table: a value's label is the words to its left, its column the heads above; `above` are
     heads that stand over the table, outside of it."""
     found: list[Statement] = []
+    titles = _titles(grid)
     grid, slipped = units_in_their_rows(_with_names_carried(_without_keys(grid)))
     heads = _head_rows(page, grid)
     naming = frozenset(heads)
-    titles = _titles(grid)
     over_rows: tuple[str, ...] = ()
     circuit: tuple[str, ...] = ()
     carried: list[Cell] = []
