@@ -88,31 +88,6 @@ def test_number_and_unit_in_columns_of_their_own(tmp_path: Path, walls: bool) ->
     }  # fmt: skip
 
 
-@pytest.mark.parametrize(
-    ("bold", "centred", "ruled"), [(True, False, False), (False, False, False), (False, True, True)]
-)
-def test_headings_in_the_margin_hold_for_the_rows_beside_them(
-    tmp_path: Path, bold: bool, centred: bool, ruled: bool
-) -> None:
-    c = canvas(tmp_path / "a.pdf")
-    put(c, 36, 810, "MW 120", size=16, bold=True)
-    y = _TOP
-    for number, group in enumerate(("Lift cylinder", "Tilt cylinder")):
-        c.line(36, y + 10, 400, y + 10) if ruled else None
-        put(c, 36, y - 13 * centred, group, bold=bold)
-        for k, part in enumerate(("Bore", "Rod diameter", "Stroke")):
-            put(c, 160, y, part)
-            put(c, 300, y, f"{(150, 85, 764)[k] + 10 * number} mm", right=True)
-            y -= 13
-    c.line(36, y + 10, 400, y + 10) if ruled else None
-    c.save()
-    truth = {f"{one} Cylinder {part}": (value + 10 * n) / 1000 for n, one in enumerate(("Lift", "Tilt"))
-             for part, value in (("Bore", 150), ("Rod Diameter", 85), ("Stroke", 764))}  # fmt: skip
-    assert found(tmp_path / "a.pdf", dict.fromkeys(truth, "length")) == {
-        name: ("ok", pytest.approx(value)) for name, value in truth.items()
-    }
-
-
 def family(path: Path) -> None:
     """Three models under a bar, walls between their columns only; cells that hold for two, for all and for one."""
     c = canvas(path)

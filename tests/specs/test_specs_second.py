@@ -48,7 +48,17 @@ def test_words_beside_over_and_under_a_value_are_told_apart() -> None:
         ("left", "Wheelbase", "3,300", "mm"),
         ("above", "Length", "8,120", ""),
         ("below", "Width", "2,680", ""),
+        ("under", "Width", "2,680", ""),
     }, "a drawing's key names nothing, and one digit alone is no value"
+
+
+def test_a_name_in_the_middle_under_another_number_is_doubted() -> None:
+    by_rules = said("Wheelbase", "6,194", "mm")
+    near = (Near("left", by_rules), Near("under", said("Wheelbase", "3,264", "mm", top=90)))
+    doubted = asked(Sheet("a.pdf", 1, (by_rules,), (), "point", near=near)).values["Wheelbase"]
+    assert doubted.status == "review" and "3,264" in doubted.reason
+    over = Near("above", by_rules)  # a card: the label is over its own value, too
+    assert asked(Sheet("a.pdf", 1, (by_rules,), (), "point", near=(*near, over))).values["Wheelbase"].status == "ok"
 
 
 def test_what_the_rules_miss_comes_to_review_with_its_page_and_quote() -> None:

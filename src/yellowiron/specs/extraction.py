@@ -206,13 +206,15 @@ def _claimed(sheets: Sequence[Sheet], config: str) -> _Claimed:
     near_recognised: list[tuple[list[Near], DecimalStyle]] = []
     for sheet in sheets:
         other = of_others(sheet.titles, config)
-        every = claims_of([s for s in sheet.statements if s.page not in other], sheet.style)
+        sisters = of_sisters(sheet.titles, config)
+        read = [s for s in sheet.statements if s.page not in other and (s.column or s.page not in sisters)]
+        every = claims_of(read, sheet.style)
         meant = configured([*every, *in_only_unit(every)], config)
         for claim in meant:
             (recognised if claim.statement.guessed else printed).append(claim)
         kept = {claim.statement for claim in meant}
         others = [claim.statement for claim in every if claim.statement not in kept]
-        other |= of_sisters(sheet.titles, config)
+        other |= sisters
         own = [
             n
             for n in sheet.near

@@ -62,9 +62,9 @@ def several(titles: Sequence[frozenset[str]]) -> dict[int, str]:
 
 def with_machines(statements: Sequence[Statement], titles: Sequence[frozenset[str]]) -> tuple[Statement, ...]:
     """The statements, those that no column holds for with the model that is meant: that of the nearest heading over
-    them which heads a column elsewhere, or that which their page's title names alone, as other pages' do others."""
+    them which heads a column elsewhere, or that which their page is of alone, as other pages are of others."""
     models = {head for s in statements for head in s.column if names_model(head)}
-    pages = _titled_alone(titles)
+    pages = _of_one(titles)
 
     def machine(statement: Statement) -> str:
         headings = (*reversed(statement.context), statement.section)
@@ -86,15 +86,21 @@ def _titled_alone(titles: Sequence[frozenset[str]]) -> dict[int, str]:
     }
 
 
-def of_sisters(titles: Sequence[frozenset[str]], config: str) -> frozenset[int]:
-    """The pages whose title names another machine than the one that `config` names and that other pages' titles name,
-    also in a brochure of both; with those that go on with them, where the sheets are of equal length."""
+def _of_one(titles: Sequence[frozenset[str]]) -> dict[int, str]:
+    """`_titled_alone`, and the pages that go on with those, where the sheets are of equal length."""
     pages = _titled_alone(titles)
     begins = sorted(pages)
     length, *others = {b - a for a, b in pairwise(begins)} or {0}
     if len(begins) >= _FEWEST_EQUAL and not others:  # sheets of so many pages each, one behind the other
         going_on = {page + k: pages[page] for page in begins for k in range(1, length)}
         pages |= {page: name for page, name in going_on.items() if page <= len(titles) and not titles[page - 1]}
+    return pages
+
+
+def of_sisters(titles: Sequence[frozenset[str]], config: str) -> frozenset[int]:
+    """The pages of another machine than the one that `config` names and that other pages are of, also in a brochure of
+    both."""
+    pages = _of_one(titles)
     asked = {_plain(phrase) for phrase in split_phrases(config)} & {_plain(name) for name in pages.values()}
     return frozenset(page for page, name in pages.items() if asked and _plain(name) not in asked)
 

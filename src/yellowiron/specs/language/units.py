@@ -38,12 +38,12 @@ _TABLE = """
 millimeter        |0.001                |length       |metric  |mm|MM|millimet(?:er|re)s?
 centimeter        |0.01                 |length       |metric  |cm
 meter             |1.0                  |length       |metric  |m|met(?:er|re)s?|metros?|mtr
-inch              |0.0254               |length       |imperial|in\\.?|IN\\.|inch(?:es)?|INCH(?:ES)?|"|″|”|''|′′
-foot              |0.30479999999999996  |length       |imperial|ft\\.?|FT\\.?|feet|FEET|foot|'|′|’
+inch|0.0254|length|imperial|in\\.?|IN\\.|inch(?:es)?|INCH(?:ES)?|pulg\\.?|pulgadas?|pouces?|Zoll|"|″|”|''|′′
+foot              |0.30479999999999996  |length       |imperial|ft\\.?|FT\\.?|feet|FEET|foot|pies?|pieds?|'|′|’
 kilogram          |1.0                  |mass         |metric  |kgs?|Kgs?|KG|kilograms?
 metric_ton        |1000.0               |mass         |metric  |t|tonnes?|mt|metric tons?
 short_ton         |907.1847400000001    |mass         |imperial|short tons?
-pound             |0.4535923700000001   |mass         |imperial|lbs?\\.?|LBS?\\.?|pounds?|POUNDS?
+pound             |0.4535923700000001   |mass         |imperial|lbs?\\.?|LBS?\\.?|pounds?|POUNDS?|libras?
 megapascal        |1000000.0            |pressure     |metric  |M[pP]a
 kilopascal        |1000.0               |pressure     |metric  |[kK][pP]a
 bar               |100000.0             |pressure     |metric  |bars?
@@ -64,7 +64,7 @@ kilogram_force    |9.80665              |force        |metric  |kgf
 force_pound       |4.4482216152605005   |force        |imperial|lbf
 newton*meter      |1.0                  |torque       |metric  |N ?[·.•*-]? ?m
 kilonewton*meter  |1000.0               |torque       |metric  |kN ?[·.•*-]? ?m
-foot*force_pound  |1.3558179483314001   |torque       |imperial|(?:lbf?|ft)[·.•*-](?:ft|lbf?)|lbf? ft|ft lbf?
+foot*force_pound  |1.3558179483314001   |torque       |imperial|(?:lbf?|ft)[·.•*-](?:ft|lbf?)|lbf? ft|ft lbf?|lbf?-pies?
 kilowatt          |1000.0               |power        |metric  |[kK][wW]
 watt              |1.0                  |power        |metric  |W
 horsepower        |745.6998715822701    |power        |imperial|hp|HP|bhp|h\\.p\\.?

@@ -31,9 +31,9 @@ from yellowiron.specs.layout.statement import (
 from yellowiron.specs.pages.strokes import Box
 from yellowiron.specs.pages.words import Page
 
-Side = Literal["left", "above", "below", "behind", "item", "cell"]
-"""Where a label stands, seen from its value; `behind` a count and before an `item` in the same piece of text; `cell`:
-where the layout's rules say."""
+Side = Literal["left", "above", "below", "under", "behind", "item", "cell"]
+"""Where a label stands, seen from its value; `under`: in the middle below it, as in drawings; `behind` a count and
+before an `item` in the same piece of text; `cell`: where the layout's rules say."""
 _ITEM = re.compile(
     r"(?<!\S)([A-ZÀ-Ý][^:：\d;|]{3,50})[:：]\s*((?:[<>±Øø]\s*)*\d[^:：;|]*?)[.;|]?(?=\s+[A-ZÀ-Ý][^:：\d;|]{3,50}[:：]|$)"
 )
@@ -100,6 +100,9 @@ def nearest_of(page: Page) -> tuple[Near, ...]:
             sides: list[tuple[Side, list[TextPiece]]] = [("left", before)]
             sides += [("above", _stack(value, texts, up=True)), ("below", _stack(value, texts, up=False))]
             box = value.box
+            middle = (box[0] + box[2]) / 2
+            _, label = sides[-1]
+            sides += [("under", label)] if all(_is_centred(p, middle) for p in label) else []
             over = tuple(h.bare for h, b in zip(reversed(heads), reversed(boxes), strict=True)
                          if b[3] <= box[1] + 1 and b[0] < box[2] and box[0] < b[2])  # fmt: skip
             for number, (side, label) in enumerate(sides):
@@ -108,7 +111,7 @@ def nearest_of(page: Page) -> tuple[Near, ...]:
                 context = _sub_heading(label[0], alone) if side == "left" else ()
                 statement = Statement(
                     page=page.number,
-                    row=first + row if side == "left" else first + 1000 * row + 3 * index + number + 100_000,
+                    row=first + row if side == "left" else first + 1000 * row + 4 * index + number + 100_000,
                     label="",
                     text=value.text,
                     box=box,
@@ -119,6 +122,10 @@ def nearest_of(page: Page) -> tuple[Near, ...]:
                 )
                 found.append(Near(side, _named(statement, label, headings), over))
     return tuple(found)
+
+
+def _is_centred(piece: TextPiece, middle: float) -> bool:
+    return abs((piece.x0 + piece.x1) / 2 - middle) < 0.5 * piece.size
 
 
 def _within(page: int, row: int, piece: TextPiece, heading: str) -> Iterator[Near]:

@@ -159,7 +159,7 @@ def _glyphs(textpage: Any, place: Place, size_of_page: tuple[float, float]) -> t
             if code == 0x20 and found:
                 found[-1].ends = True
             continue
-        if code == 0x20 or code == 0xA0:
+        if code in (0x09, 0x20, 0xA0):
             found.append(_Glyph(" ", 0, 0, 0, 0, False))
             continue
         if not pdfium.FPDFText_GetLooseCharBox(textpage, index, rect):
@@ -193,6 +193,27 @@ def _glyphs(textpage: Any, place: Place, size_of_page: tuple[float, float]) -> t
         text = _SPELLED.get(code) or chr(code)
         found.append(_Glyph(text, x0, x1, baseline, size if size > 0.5 else abs(yb - ya), bold))
     return found, characters, unmapped
+
+
+_CLOSING, _OPENING = {"(": ")", "[": "]"}, {")": "(", "]": "["}
+
+
+def _from_the_right(runs: list[list[_Glyph]]) -> list[list[_Glyph]]:
+    """The runs, those joined that the file writes from their right end, each touching the one before. PDFium takes such
+    text for Arabic and gives the mirror images of some brackets: none closes a word's begin or opens its end."""
+    groups: list[list[list[_Glyph]]] = []
+    for run in runs:
+        right, last = groups[-1][-1][0] if groups else run[0], run[-1]
+        touch = abs(right.x0 - last.x1) < 0.1 * last.size and abs(right.baseline - last.baseline) < 0.1 * last.size
+        if groups and touch and run[0].x0 < right.x0:
+            groups[-1].append(run)
+        else:
+            groups.append([run])
+    joined = [[glyph for run in reversed(group) for glyph in run] for group in groups]
+    for word in (word for word, group in zip(joined, groups, strict=True) if len(group) > 1):
+        word[0].text = _OPENING.get(word[0].text, word[0].text)
+        word[-1].text = _CLOSING.get(word[-1].text, word[-1].text)
+    return joined
 
 
 _SPELLED = {0x02: "-", 0xAD: "-", 0x2010: "-", 0x2011: "-"}
@@ -232,7 +253,7 @@ def _words(glyphs: list[_Glyph]) -> tuple[list[Word], list[Box]]:
     words: list[Word] = []
     leaders: list[Box] = []
     seen: set[tuple[str, int, int]] = set()
-    for run in runs:
+    for run in _from_the_right(runs):
         text = "".join(g.text for g in run)
         key = (text, round(run[0].x0), round(run[0].baseline))
         if key in seen:  # printed twice to look bold

@@ -270,15 +270,17 @@ def _labels_of_each(text: str, label: str, readings: Sequence[Reading], kept: Se
     """The labels of each reading: one part of a label that names alternatives for each of numbers with slashes between
     them, all parts and the whole for a number that is the only one."""
     whole = [[label]] * len(kept)
-    if not kept or len(kept) != len(readings) or any(len(r.numbers) != 1 or len(r.partner) > 1 for r in kept):
+    if not kept or any(len(r.numbers) != 1 or len(r.partner) > 1 for r in kept):
         return whole
     if len(kept) == 1:
         return [[label, *(opposed(label) or standard_of_two(label))]]
-    ends = [max(q.end for q in (*r.numbers, *r.partner)) for r in kept]
-    between = [text[end : r.numbers[0].start] for end, r in zip(ends, kept[1:], strict=False)]
+    starts = [r.numbers[0].start for r in kept[1:]]
+    both = zip(kept, starts, strict=False)  # "23 km/h / 25 km/h (14.3 mph / 15.5 mph)": what agrees may stand behind
+    ends = [max(q.end for q in (*r.numbers, *r.partner) if q.end <= start) for r, start in both]
+    between = [text[end:start] for end, start in zip(ends, starts, strict=True)]
     if not all(re.fullmatch(r"[^\W\d()]*\)?\s*[/／]\s*[+]?", part.strip()) for part in between):
         return whole
-    return [[own] for own in alternatives(label, len(kept))] or whole
+    return [[own] for own in alternatives(label, len(kept)) or enumerated(label, len(kept))] or whole
 
 
 def spelled_out(text: str, unit: str) -> tuple[str, str]:
@@ -423,7 +425,7 @@ def _checked(claim: Claim) -> Claim:
     quantity, partner = claim.quantity, claim.partner
     if partner is None:
         return claim
-    if same(quantity, partner):
+    if same(quantity, partner) or _rounded_for_each(quantity, partner):
         return replace(claim, quantity=replace(quantity, other=None))
     if quantity.other is not None:
         swapped = replace(quantity, value=quantity.other, half=0.5, other=None)
@@ -481,3 +483,15 @@ def _metric_first(a: Claim, b: Claim) -> Claim:
     if unit is not None and unit.system == "metric":
         return replace(a, partner=b.quantity)
     return replace(b, partner=a.quantity)
+
+
+_ROUNDED = 1.5e-3
+"""Makers round to 5 kg here and to 5 lb there: what differs by less is the same."""
+
+
+def _rounded_for_each(a: Quantity, b: Quantity) -> bool:
+    """Whether two quantities are the same, rounded in each system, or one is in metric horsepower that are called
+    "hp"."""
+    metric = (replace(q, unit="PS") if q.printed and q.printed.name == "horsepower" else q for q in (a, b))
+    close = a.dimension == b.dimension and abs(a.si_value - b.si_value) <= _ROUNDED * abs(a.si_value)
+    return close or same(*metric)

@@ -33,7 +33,7 @@ _UNITS = {**BARE_UNITS, "angle": ("°",), "time": ("s",)}
 _AROUND: tuple[Side, ...] = ("left", "above", "below")
 _WITHIN: tuple[Side, ...] = ("behind", "item", "cell")
 """What speaks only where the words around a value do not."""
-_SIDES = (*_AROUND, *_WITHIN)
+_SIDES = (*_AROUND, "under", *_WITHIN)
 _SAID_BY_UNIT = {
     "angular_speed": "speed", "flow": "flow", "force": "force", "length": "length", "mass": "weight", "power": "power",
     "pressure": "pressure", "time": "time",
@@ -72,9 +72,11 @@ def second_reading(
     taken = [(seen, value) for one in values.values() if one.status != "missing" for seen, value in _seen(one)]
     found = dict(values)
     readings, chosen = _undisputed(list(asked.values()), near, config)
-    for name, one in readings["left"].items():
+    under = {n: one for n, one in readings["under"].items() if n not in readings["above"] and _names(one, values[n])}
+    for name, one in (readings["left"] | under).items():
         quantity, _ = settled(asked[name], one.claim)
-        if values[name].status == "ok" and quantity.unit_printed and _differs(values[name], quantity):
+        told = quantity.unit_printed or name in under
+        if values[name].status == "ok" and told and _differs(values[name], quantity):
             found[name] = _doubted(values[name], one, quantity, sheets)
     around = sorted(_AROUND, key=lambda side: len(readings[side]), reverse=True)  # stable: left, above, below
     for side in (*around, *_WITHIN):
@@ -169,6 +171,12 @@ def _filled_in(claims: Sequence[Claim], side: Side) -> list[Claim]:
 
 def _value(found: Match) -> float:
     return settled(found.wanted, found.claim)[0].si_value
+
+
+def _names(one: Match, value: Specification) -> bool:
+    """Whether the words right under a number are those that name another value: in a drawing they name the number."""
+    statement, seen = one.claim.statement, value.evidence
+    return seen is not None and seen.page == statement.page and seen.quote.startswith(statement.label)
 
 
 def _differs(value: Specification, quantity: Quantity) -> bool:

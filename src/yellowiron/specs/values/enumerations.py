@@ -20,7 +20,7 @@ COUNTED_PARTS = re.compile(
 )
 _LWH, _SEL = ("length", "width", "height"), ("thickness", "width", "length")
 _SIZES = dict.fromkeys(("LBH", "LlH", "LAH", "LAhA", "LAnAl", "lbh", "长宽高", "長幅高"), _LWH) | {"sel": _SEL}
-_INITIALS = {"l": "length", "w": "width", "h": "height", "t": "thickness"}
+_INITIALS = {"l": "length", "w": "width", "a": "width", "b": "width", "h": "height", "t": "thickness", "e": "thickness"}
 _FORK_SIZES = re.compile(r"(?<!\S)s\s?/\s?e\s?/\s?l(?!\S)")
 """What makers call length × width × height, and VDI 2198 a fork's measures."""
 _TIGHT = re.compile(r"\s?(?<![^\W\d])L\s?[x×*]\s?W\s?[x×*]\s?H(?![^\W\d])", re.IGNORECASE)

@@ -318,6 +318,10 @@ def _match(asked_for: _Asked, claim: Claim, said: _Said) -> Match | None:
     )
 
 
+_MACHINES = {"forklift", "telehandler", "grader"}
+"""Machines that are no part of another one."""
+
+
 @dataclass(frozen=True)
 class _Explanation:
     """What a value's phrases explain of a claim: the words, those of them that only heads say, what is taken off for
@@ -336,8 +340,8 @@ def _explanation(asked_for: _Asked, said: _Said, *, supported: bool) -> _Explana
     everything = label | head | context | section
     by_itself = any(words <= label for _, words in asked_for.phrases)
     optional = (_EXTREME if wanted.dimension in _RATED else set()) - everything
-    # What names the model of the column, too, is the page's title.
-    title = bool((section & head) - KNOWN - NEUTRAL)
+    # What names the model of the column, too, or the machine, is the page's title.
+    title = bool((section & head) - KNOWN - NEUTRAL | section & _MACHINES)
     nearest = said.contexts[-1] if said.contexts else section  # a title over "Specifications" is the machine's
     headed = bool(wanted.sections) and not nearest <= GENERAL and not title and wanted.dimension != "time"
     vague = VAGUE if headed else frozenset[str]()

@@ -22,5 +22,6 @@ def in_only_unit(claims: Sequence[Claim]) -> list[Claim]:
         return []
     if {q.unit for q in large} != {"mm"}:
         return []
-    bare = [c for c in claims if not c.quantity.unit and not c.quantity.sign and c.quantity.value >= _LEAST]
+    table = [c for c in claims if not c.statement.running]  # in a sentence it may be a model
+    bare = [c for c in table if not c.quantity.unit and not c.quantity.sign and c.quantity.value >= _LEAST]
     return [replace(claim, quantity=replace(claim.quantity, unit="mm")) for claim in bare]

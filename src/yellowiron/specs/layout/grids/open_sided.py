@@ -5,7 +5,7 @@ from __future__ import annotations
 from collections.abc import Sequence
 
 from yellowiron.specs.layout.rows.lines import TextLine, lines_of
-from yellowiron.specs.layout.statement import TextPiece, kind_of
+from yellowiron.specs.layout.statement import TextPiece, is_key, kind_of
 from yellowiron.specs.pages.strokes import SNAP, Box, DrawnRule
 from yellowiron.specs.pages.words import Word
 
@@ -44,7 +44,8 @@ def _lacks_wall(
         return False
     high = below.top - above.top >= _HIGHEST
     row = [w for w in words if above.top < (w.top + w.bottom) / 2 < below.top and x0 - 4 <= w.x0 <= x1]
-    left = {kind_of(p) for line in lines_of([w for w in row if w.x1 <= min(inner) + 1]) for p in line.pieces}
+    before = [p for line in lines_of([w for w in row if w.x1 <= min(inner) + 1]) for p in line.pieces]
+    left = {kind_of(p) for p in before if p is not before[0] or not is_key(p.bare)}
     right = {kind_of(p) for line in lines_of([w for w in row if w.x0 >= max(inner) - 1]) for p in line.pieces}
     if high:
         return len(inner) > 1 and "value" in right if x > max(inner) else len(inner) > 1 and "text" in left
@@ -56,7 +57,8 @@ def merged(level: Sequence[DrawnRule]) -> list[DrawnRule]:
     found: list[DrawnRule] = []
     for rule in sorted(level, key=lambda r: (round(r.top), r.x0)):
         last = found[-1] if found else None
-        if last is not None and abs(last.top - rule.top) <= 1 and rule.x0 <= last.x1 + SNAP:
+        touch = last is not None and last.x0 - SNAP <= rule.x1 and rule.x0 <= last.x1 + SNAP
+        if last is not None and touch and abs(last.top - rule.top) <= 1:
             found[-1] = DrawnRule(min(last.x0, rule.x0), last.top, max(last.x1, rule.x1), last.top)
         else:
             found.append(rule)

@@ -3,10 +3,12 @@
 from __future__ import annotations
 
 import re
+from collections import Counter
 from collections.abc import Iterator, Sequence
 from dataclasses import dataclass, replace
 from itertools import pairwise
 
+from yellowiron.specs.language.numbers import read
 from yellowiron.specs.language.vocabulary import CIRCUITS, tokens
 from yellowiron.specs.layout.grids.slipped_units import units_in_their_rows
 from yellowiron.specs.layout.grids.table_grid import Cell, TableGrid
@@ -55,10 +57,10 @@ def read_grid(
     """The statements of a table: a value's label is the words to its left, its column the heads above; `above` are
     heads that stand over the table, outside of it."""
     found: list[Statement] = []
+    titles = _titles(grid)
     grid, slipped = units_in_their_rows(_with_names_carried(_without_keys(grid)))
     heads = _head_rows(page, grid)
     naming = frozenset(heads)
-    titles = _titles(grid)
     over_rows: tuple[str, ...] = ()
     circuit: tuple[str, ...] = ()
     carried: list[Cell] = []
@@ -201,7 +203,7 @@ def _without_keys(grid: TableGrid) -> TableGrid:
     a column of words. Among many some letters have two ("Wa"), some stand in two rows, or beside no words."""
     keys: set[Cell] = set()
     for column in range(grid.columns - 1):
-        cells = [c for c in grid.cells if c.columns[0] == column and c.lines]
+        cells = [c for c in grid.cells if c.columns == (column, column + 1) and c.lines]
         own = [c for c in cells if is_key(c.text)]
         texts = [c.text for c in own]
         numbers = any(t[0].isdigit() for t in texts)
@@ -219,8 +221,8 @@ def _without_keys(grid: TableGrid) -> TableGrid:
         keys.update(c for c in own if not _LISTED.fullmatch(c.text))  # "s/e/l" says what its three values are
     numbers_of = {c.rows: c.text for c in keys if c.text[0].isdigit()}
     again = [c for c in grid.cells if c not in keys and c.text and numbers_of.get(c.rows) == c.text]
-    if len(again) >= MANY and len({c.columns for c in again}) == 1:  # "1.9 | Wheelbase | 2800 | 1.9"
-        keys.update(again)
+    for columns, count in Counter(c.columns for c in again).items():  # "1.9 | Wheelbase | 2800 | 1.9"
+        keys.update(c for c in again if c.columns == columns and count >= MANY)
     return grid.emptied(keys) if keys else grid
 
 
@@ -389,13 +391,26 @@ def _heads_over(grid: TableGrid, heads: Sequence[int], value: Cell, labels: Sequ
 
 def _units_for(value: Cell, values: Sequence[Cell], before: Sequence[Cell], cells: Sequence[Cell]) -> list[Cell]:
     """The unit cells that may hold for a value: those before it (after the last value), else any of the row; where each
-    value has one after it, that."""
+    value has one after it, that; of two before pairs of values each its own ("lb | kg | 4,000 | 1,815")."""
     units = [c for c in cells if c.lines and is_unit(c.text)]
+    if len(units) == 2 and units[1].columns[0] < values[0].columns[0] and _are_pairs(values, units):
+        return [units[next(i for i, v in enumerate(values) if v is value) % 2]]
     ends = [*(v.columns[0] for v in values), cells[-1].columns[1] if cells else 0]
     after = [[u for u in units if a < u.columns[0] < b] for a, b in pairwise(ends)]
     if len(values) > 1 and after[0] and sum(bool(u) for u in after) > 1:
         return next(u for v, u in zip(values, after, strict=True) if v is value)
     return [c for c in before if is_unit(c.text)] + units
+
+
+def _are_pairs(values: Sequence[Cell], units: Sequence[Cell]) -> bool:
+    """Whether each two values are about the same in two units; so is what makers round for each system (24 in for 500
+    mm)."""
+    said = [read(v.text, unit=is_unit(units[i % 2].text)) for i, v in enumerate(values)]
+    if len(said) % 2 or not all(said):
+        return False
+    first = [readings[0].numbers[0] for readings in said]
+    pairs = zip(first[::2], first[1::2], strict=True)
+    return all(a.dimension == b.dimension and 0.75 * b.si_value < a.si_value < b.si_value / 0.75 for a, b in pairs)
 
 
 def _last(labels: Sequence[Cell]) -> int:

@@ -1,30 +1,12 @@
-"""What stands beside the rows of a column of text and is none of their labels: keys of drawings, headings in the
-margin."""
+"""What stands beside the rows of a column of text and is none of their labels: keys of drawings."""
 
 from __future__ import annotations
 
 from collections.abc import Sequence
-from dataclasses import dataclass
 from itertools import pairwise
 
 from yellowiron.specs.layout.rows.lines import TextLine
 from yellowiron.specs.layout.statement import TextPiece, ascending, is_key, is_unit, kind_of
-from yellowiron.specs.pages.strokes import DrawnRule
-
-_LEVEL = 2.0
-"""Points within which the left edges of labels lie."""
-_FEWEST = 4
-"""Rows that a margin stands beside at least."""
-
-
-@dataclass(frozen=True)
-class Beside:
-    """Words in the margin that hold for the rows from `top` to `bottom`; `heading`: set apart from the labels."""
-
-    top: float
-    bottom: float
-    pieces: tuple[TextPiece, ...]
-    heading: bool
 
 
 def without_keys(lines: Sequence[TextLine]) -> list[TextLine]:
@@ -95,117 +77,3 @@ def _counts(numbers: Sequence[TextPiece], lines: Sequence[TextLine]) -> bool:
 def _one_by_one(texts: Sequence[str]) -> bool:
     counted = [int(t) if t.isdecimal() else 0 for t in (text.strip("()[].:") for text in texts)]
     return all(b == a + 1 for a, b in pairwise(counted))
-
-
-def parted_margin(lines: Sequence[TextLine], rules: Sequence[DrawnRule]) -> tuple[list[TextLine], list[Beside]]:
-    """The lines without what stands in the margin beside their labels, and that, from top to bottom.
-
-    A margin: left of where nearly all rows with values begin their labels, level with some of them and empty beside
-    others. Its words hold from rule to rule where rules part the groups, else from their own height to the next.
-    """
-    found = _margin(lines)
-    if found is None:
-        return list(lines), []
-    start, first, last = found
-    own = [p for line in lines[first:last] for p in line.pieces if p.x0 < start - _LEVEL]
-    left = min(p.x0 for p in own)
-    top, bottom = lines[first].top, lines[last - 1].bottom
-    across = sorted(r.top for r in rules if r.horizontal and r.x0 <= left + 4 and r.x1 >= start + 4)
-    groups = _groups(own, across)
-    edges = [y for y in across if top - 12 <= y <= bottom + 12]
-    labels = [p for line in lines[first:last] for p in line.pieces if abs(p.x0 - start) <= _LEVEL]
-    beside = [
-        Beside(above, below, tuple(group), _is_set_apart(group, labels))
-        for group, (above, below) in zip(groups, _extents(groups, edges, top, bottom), strict=True)
-    ]
-    inner = [tuple(p for p in line.pieces if p.x0 >= start - _LEVEL) for line in lines[first:last]]
-    return [*lines[:first], *(TextLine(pieces) for pieces in inner if pieces), *lines[last:]], beside
-
-
-def _groups(pieces: Sequence[TextPiece], across: Sequence[float]) -> list[list[TextPiece]]:
-    """The pieces of a margin that stand close to each other, in one weight, with no rule `across` between them."""
-    groups: list[list[TextPiece]] = []
-    for piece in pieces:
-        before = groups[-1][-1] if groups else None
-        near = before is not None and piece.box[1] - before.box[3] < 0.7 * piece.size and before.bold == piece.bold
-        if before is not None and near and not any(before.box[3] - 2 <= y <= piece.box[1] + 2 for y in across):
-            groups[-1].append(piece)
-        else:
-            groups.append([piece])
-    return groups
-
-
-def _extents(
-    groups: Sequence[Sequence[TextPiece]], edges: Sequence[float], top: float, bottom: float
-) -> list[tuple[float, float]]:
-    """From where to where each group of a margin holds: between its rules where each group has its own, else to the
-    next one."""
-    places = [_cell_of(g, edges) for g in groups]
-    if edges and all(places.count(place) == 1 for place in places):
-        return [(max(above, top - 1), min(below, bottom + 1)) for above, below in places]
-    begins = [g[0].box[1] - 0.5 * g[0].size for g in groups]
-    ends = [after[0].box[1] - 0.5 * g[0].size for g, after in pairwise(groups)]
-    return list(zip(begins, [*ends, bottom + 1], strict=True))
-
-
-def _is_set_apart(group: Sequence[TextPiece], labels: Sequence[TextPiece]) -> bool:
-    """Whether words in the margin stand out from the labels: a heading."""
-    marked = all(p.bold or p.size > 1.1 * max(q.size for q in labels) for p in group)
-    return marked and not all(p.bold for p in labels)
-
-
-def _cell_of(group: Sequence[TextPiece], edges: Sequence[float]) -> tuple[float, float]:
-    """The rules above and below some words."""
-    middle = (group[0].box[1] + group[-1].box[3]) / 2
-    above = max((y for y in edges if y < middle), default=float("-inf"))
-    return above, min((y for y in edges if y >= middle), default=float("inf"))
-
-
-def _margin(lines: Sequence[TextLine]) -> tuple[float, int, int] | None:
-    """Where labels begin right of a margin, and the range of lines that have it; None if there is no margin."""
-    starts: dict[int, int] = {}
-    for line in lines:
-        for piece, after in zip(line.pieces, line.pieces[1:], strict=False):
-            if kind_of(piece) == "text" and kind_of(after) in ("value", "unit"):
-                starts[round(piece.x0)] = starts.get(round(piece.x0), 0) + 1
-    for start in sorted(starts, key=lambda x: (-starts[x], x))[:2]:
-        best = _run(lines, float(start))
-        if best is not None:
-            return float(start), *best
-    return None
-
-
-def _run(lines: Sequence[TextLine], start: float) -> tuple[int, int] | None:
-    """The first run of lines in which every row with a value begins its label at `start` and only words stand left of
-    that, level with some of the labels, absent beside at least as many."""
-    first = 0
-    while first < len(lines):
-        last = first
-        while last < len(lines) and _fits(lines[last], start):
-            last += 1
-        while last > first and not _at(lines[last - 1], start):
-            last -= 1
-        rows = [line for line in lines[first:last] if _at(line, start) and _has_value(line)]
-        level = [line for line in rows if line.x0 < start - _LEVEL]
-        alone = [line for line in lines[first:last] if not _at(line, start)]
-        if len(rows) >= _FEWEST and level and len(rows) - len(level) >= len(level) and len(alone) <= 2 * len(level):
-            while not _at(lines[first], start):
-                first += 1
-            return first, last
-        first = max(last, first) + 1
-    return None
-
-
-def _fits(line: TextLine, start: float) -> bool:
-    left = [p for p in line.pieces if p.x0 < start - _LEVEL]
-    if any(kind_of(p) != "text" or p.x1 > start - 2 for p in left) or len(left) > 1:
-        return False
-    return _at(line, start) or not _has_value(line)
-
-
-def _at(line: TextLine, start: float) -> bool:
-    return any(abs(p.x0 - start) <= _LEVEL and kind_of(p) == "text" for p in line.pieces)
-
-
-def _has_value(line: TextLine) -> bool:
-    return any(kind_of(p) == "value" for p in line.pieces)

@@ -7,7 +7,6 @@ from dataclasses import dataclass, field
 
 from yellowiron.specs.layout.rows.headings import Heading
 from yellowiron.specs.layout.rows.lines import TextBlock, TextLine
-from yellowiron.specs.layout.rows.margin import Beside
 from yellowiron.specs.layout.statement import TextPiece
 from yellowiron.specs.pages.words import Page
 
@@ -45,8 +44,11 @@ class ReaderState:
     values_in_row: int = 0
     headings: list[Heading] = field(default_factory=list)
     orphans: list[int] = field(default_factory=list)
+    nearer: bool = False
+    """Whether the row that is read is nearer to the one above than to the next."""
+    given: TextLine | None = None
+    """The line that names the values above it, and none below."""
     last: tuple[Sequence[TextLine], range, str] | None = None
-    beside: Beside | None = None
     corner: TextPiece | None = None
     """The part that a table's corner names, beside the heads of its columns ("Blade | 6S | 6SU")."""
     worded: tuple[TextPiece, ...] = ()

@@ -10,7 +10,7 @@ from yellowiron.specs.language.numbers import read
 from yellowiron.specs.layout.rows.cells import ValueCell, statement_of
 from yellowiron.specs.layout.rows.headings import Heading, bar_under, bars_of, body_size
 from yellowiron.specs.layout.rows.lines import TextBlock, TextLine, bands
-from yellowiron.specs.layout.rows.margin import Beside, parted_margin, without_keys
+from yellowiron.specs.layout.rows.margin import without_keys
 from yellowiron.specs.layout.rows.prose import paragraphs_of, read_paragraph
 from yellowiron.specs.layout.rows.reader_state import ReaderState, TextColumn
 from yellowiron.specs.layout.rows.row_bands import split_if_separate
@@ -39,11 +39,9 @@ def read_block(
     column = TextColumn(page, block, _type_size(page, block))
     paragraphs = paragraphs_of(block.lines)
     kept, beside = _without_paragraphs(block, paragraphs)
-    lines, margin = parted_margin(without_keys(kept), page.rules)
-    rows = unfolded([r for band in bands(lines, page.rules, bars_of(page, block), block.x0, block.x1)
+    rows = unfolded([r for band in bands(without_keys(kept), page.rules, bars_of(page, block), block.x0, block.x1)
                      for r in split_if_separate(band)])  # fmt: skip
-    for index, row in enumerate(rows):
-        _enter_margin(column, row, margin, state)
+    for index in range(len(rows)):
         _read_nth_row(column, rows, index, state, first_row, found)
     for paragraph in paragraphs:
         headings = [h for h in state.headings if h.bottom <= paragraph[0].top + 2]
@@ -87,10 +85,11 @@ def _read_nth_row(
         return
     before = len(found)
     number = first_row + before + index
+    state.nearer = bool(index and following) and _between(rows[index - 1], row) < _between(row, following[0])
     ordered = sorted(row, key=lambda line: line.top)
     if len(row) == 2 and _captioned(ordered[:1], ordered[1:], ()):
         _read_captions(column.page, ordered[0], ordered[1], state, number, found)
-    elif index and _captioned(rows[index - 1], row, following):
+    elif index and rows[index - 1][0] is not state.given and _captioned(rows[index - 1], row, following):
         above = _broken_caption(rows[:index])
         _read_captions(column.page, rows[index - 1][0], row[0], state, number, found, above)
     else:
@@ -98,21 +97,8 @@ def _read_nth_row(
         state.last = (row, range(before, len(found)), row[0].pieces[0].text) if len(found) > before else None
 
 
-def _enter_margin(column: TextColumn, row: Sequence[TextLine], margin: Sequence[Beside], state: ReaderState) -> None:
-    """Makes what stands in the margin beside a row its section or, where it looks like a label, its sub-heading."""
-    middle = (min(line.top for line in row) + max(line.bottom for line in row)) / 2
-    beside = next((b for b in margin if b.top <= middle < b.bottom), None)
-    if beside is state.beside:
-        return
-    state.beside = beside
-    state.pending, state.indented = [], False
-    if beside is None:
-        state.context = []
-    elif beside.heading:
-        text = joined(p.text for p in beside.pieces)
-        state.open_section(column.heading(beside.top, text), ())
-    else:
-        state.context = list(beside.pieces)
+def _between(above: Sequence[TextLine], below: Sequence[TextLine]) -> float:
+    return min(line.top for line in below) - max(line.bottom for line in above)
 
 
 def _read_row(
@@ -230,7 +216,8 @@ def _continue_label(
 
 
 def _label_orphans(line: TextLine, state: ReaderState, found: list[Statement]) -> bool:
-    """Gives values without any label the words right beneath them: a card with a big number over its name."""
+    """Gives values without any label the words right beneath them: a card with a big number over its name, or what is
+    nearer to them than to the next row."""
     orphans, state.orphans = state.orphans, []
     if not orphans or len(line.pieces) != len(orphans):
         return False
@@ -238,7 +225,8 @@ def _label_orphans(line: TextLine, state: ReaderState, found: list[Statement]) -
         box = found[index].box
         height = box[3] - box[1]
         overlaps = piece.x0 < box[2] and box[0] < piece.x1
-        if kind_of(piece) != "text" or not overlaps or piece.box[1] - box[3] > height or piece.size > 0.85 * height:
+        small = piece.size <= 0.85 * height or state.nearer
+        if kind_of(piece) != "text" or not overlaps or piece.box[1] - box[3] > height or not small:
             return False
     for index, piece in zip(orphans, line.pieces, strict=True):
         statement = found[index]
@@ -251,6 +239,7 @@ def _label_orphans(line: TextLine, state: ReaderState, found: list[Statement]) -
             quote=f"{statement.text} … {piece.text}",
             example=statement.example or bool(EXAMPLE.search(piece.text)),
         )
+    state.given = line
     return True
 
 
