@@ -12,6 +12,12 @@ from yellowiron.endpoint import ModelOptions
 from yellowiron.model.specification import Specification
 from yellowiron.specs.extraction import from_sheets
 from yellowiron.specs.extraction import read as read_pdf
+from yellowiron.specs.language.quantities import Quantity
+from yellowiron.specs.layout.statement import Statement
+from yellowiron.specs.llm.doubts import Doubted, is_answered
+from yellowiron.specs.values.claims import Claim
+from yellowiron.specs.values.contention import Match
+from yellowiron.specs.values.cross_check import Nearby
 
 pytestmark = pytest.mark.usefixtures("read_here")
 
@@ -80,6 +86,17 @@ def test_what_the_layout_left_open_is_settled(page: Path, name: str, label: str,
 def test_what_the_page_leaves_open_is_not(page: Path, name: str, label: str, value: str) -> None:
     _, both = said(page, name, label, value)
     assert both.status != "ok"
+
+
+@pytest.mark.parametrize(("text", "answered"), [("2500 mm", True), ("2500 mm stick", False)])
+def test_words_behind_a_number_under_a_label_are_its_own(text: str, answered: bool) -> None:
+    """It is the stick's length then, whatever reads it as the machine's."""
+    asked = template(wanted("Shipping Length", "length", "shipping length")).wanted[0]
+    statement = Statement(1, 1, "Shipping length", text, (36.0, 589.0, 80.0, 600.0), f"Shipping length … {text}")
+    quantity = Quantity(2500.0, "mm", 12.5, "2500 mm", 0, 7)
+    found = Match(asked, Claim(statement, "Shipping length", "", quantity), 1.0, "shipping length")
+    value = Specification("Shipping Length", 2.5, "m", "review", reason="the layout was not understood there")
+    assert is_answered(Doubted(asked, (asked,), (), Nearby(found, "above")), value) is answered
 
 
 def test_played_models_do_not_answer_for_one_another(

@@ -139,6 +139,9 @@ def _is_named(doubted: Doubted, nearby: Nearby) -> bool:
         return counted and _UNDER_WHICH.search(begin) is None
     if not statement.unit and not re.search(r"[^\W\d]", found.claim.quantity.text):
         return False  # its unit is what would be usual, and not printed there
+    behind = set(tokens(statement.text[found.claim.quantity.end :])) - said - HARMLESS - NEUTRAL
+    if nearby.side == "above" and behind & (KNOWN | TELLING):
+        return False  # "2500 mm stick" under a label: it is the stick's
     left = said - set(tokens(found.phrase)) - HARMLESS - NEUTRAL
     if nearby.side == "cell":
         telling = (said & set(tokens(found.phrase))) - _EXTENT
