@@ -24,8 +24,6 @@ from __future__ import annotations
 import argparse
 import json
 import math
-import subprocess
-import sys
 import tempfile
 from collections.abc import Callable
 from pathlib import Path
@@ -34,18 +32,17 @@ from typing import Any
 import numpy as np
 
 from bench_defaults import Worst, targets
-from bench_slope import downhill
+from bench_slope import TOLD, downhill
 from bench_steps import steps_in
-from plain import HZ, Engine, Newton, PhysX, World, built, started, turned
+from plain import GRAVITY, HZ, Engine, Newton, PhysX, World, built, of_a_process, started, turned
 from yellowiron.each_way import EachWay
-from yellowiron.hydraulics import ENGINE
+from yellowiron.hydraulics import engine_power
 from yellowiron.kinematics.measuring.bench import Bench
+from yellowiron.kinematics.measuring.sheet import specified
 from yellowiron.kinematics.strength import rated_load
 from yellowiron.model.mechanism import Mechanism, Site
-from yellowiron.model.specification import fold
 from yellowiron.usd import read_mechanism
 
-ENGINES = ("physx", "newton", "mujoco")
 WALL = 1e9
 """kg: an armature that hardly anything moves."""
 STALLED = 0.2
@@ -62,7 +59,7 @@ def main() -> None:
     parser = argparse.ArgumentParser(description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter)
     parser.add_argument("files", nargs="*", type=Path)
     parser.add_argument("--data", type=Path, help="a folder with zx120/zx120.glb")
-    parser.add_argument("--engines", nargs="*", choices=ENGINES, default=list(ENGINES))
+    parser.add_argument("--engines", nargs="*", choices=HZ, default=list(HZ))
     parser.add_argument("--rows", nargs="*", choices=ROWS, default=list(ROWS))
     parser.add_argument("--one", nargs=2, metavar=("ROW", "ENGINE"), help=argparse.SUPPRESS)
     given = parser.parse_args()
@@ -75,17 +72,15 @@ def main() -> None:
             print(f"\n{file.parent.name}\n\n| | {' | '.join(given.engines)} | bar |")
             print(f"|---|{'---|' * (len(given.engines) + 1)}", flush=True)
             for row in given.rows:
-                cells = [_of_a_process(file, row, engine) for engine in given.engines]
+                cells = [_cell(file, row, engine) for engine in given.engines]
                 print(f"| {row} | {' | '.join(cells)} | {BARS[row]} |", flush=True)
 
 
-def _of_a_process(file: Path, row: str, engine: str) -> str:
-    command = [sys.executable, __file__, str(file), "--one", row, engine]
-    ran = subprocess.run(command, capture_output=True, text=True, check=False)
-    if ran.returncode:
-        last = ran.stderr.strip().splitlines() or ["?"]
-        return f"fails: {last[-1][:80]} ({ran.returncode})"
-    return str(json.loads(ran.stdout.strip().splitlines()[-1]))
+def _cell(file: Path, row: str, engine: str) -> str:
+    try:
+        return str(of_a_process(__file__, file, "--one", row, engine))
+    except RuntimeError as why:
+        return str(why)
 
 
 # ---- speeds and forces -----------------------------------------------------------------------------------------------
@@ -98,14 +93,7 @@ def levers(engine: str, file: Path) -> str:
     found = steps_in(engine, file, ["--levers"])
     own = f"{max(max(each) for each in found['speeds'].values()) - 1.0:+.1%}, {found['power'] / 1e3:.0f} kW"
     rated = engine_power(read_mechanism(file))
-    return own if rated is None else f"{own} ({found['power'] / rated - 1.0:+.0%})"
-
-
-def engine_power(mechanism: Mechanism) -> float | None:
-    """W by the sheet, as the oil's layer reads it."""
-    known = {fold(name): entry for name, entry in mechanism.specifications.items() if entry.get("status") == "ok"}
-    values = (known[fold(name)].get("value") for name in ENGINE if fold(name) in known)
-    return next((float(value) for value in values if value), None)
+    return f"{own} ({found['power'] / rated - 1.0:+.0%})" if math.isfinite(rated) else own
 
 
 def force(engine: str, file: Path) -> str:
@@ -129,15 +117,12 @@ def _stalled(engine: str, file: Path, *, told: bool) -> str:
     for number in range(len(at.slides)):
         at.burden(number, WALL)
     worst = 0.0
-    for way, rated in ((0, "lower"), (1, "upper")):
-        wanted = np.array([getattr(slide, rated) for slide in at.slides])
+    for way, end in ((0, "lower"), (1, "upper")):
+        wanted = np.array([getattr(slide, end) for slide in at.slides])
         at.tell(wanted)
         if limits is not None:
             assert isinstance(at, PhysX)
-            at.strokes(), at.speeds()
-            rows = (at.rows[kind] for kind in ("POSITION_TARGET", "POSITION", "VELOCITY"))
-            at.rows["MAX_FORCE"][:] = limits.forces_now(*rows)
-            at.write("MAX_FORCE")
+            at.limit(limits)
         before, steps = at.speeds(), round(STALLED * at.hz)
         for _ in range(steps):
             at.step()
@@ -168,7 +153,7 @@ def slope(engine: str, file: Path) -> str:
 
 
 def on_ground(engine: str, file: Path) -> Engine:
-    more = {"mjc:option:cone": "elliptic", "mjc:option:impratio": 1000.0} if engine == "newton" else {}
+    more = TOLD if engine == "newton" else {}
     world = World(HZ[engine], base="floating", ground=True, variants={"Brakes": "set"}, told=more)
     return started(engine, file, world)
 
@@ -178,7 +163,7 @@ def pressed(at: Engine, site: Site, mechanism: Mechanism, mass: float) -> None:
     path = next(path for path in at.bodies if path.rpartition("/")[2] == site.body)
     pose = at.poses()[at.bodies[path]]
     place = np.array(site.position) - np.array(mechanism.body(site.body).origin)
-    at.push(path, np.array([0.0, 0.0, -9.81 * mass]), pose[:3] + turned(pose[None, 3:], place[None])[0])
+    at.push(path, np.array([0.0, 0.0, -GRAVITY * mass]), pose[:3] + turned(pose[None, 3:], place[None])[0])
     at.step()
 
 
@@ -207,7 +192,7 @@ def tipping(engine: str, file: Path) -> str:
         state = bench.pose(test.steps)
         wanted = np.array([bench.chain.coordinate(state, slide.name) for slide in at.slides])
         site = next(site for site in mechanism.sites if site.name == test.site)
-        published = published_value(mechanism, test.specification or test.name)
+        published = specified(mechanism, test.specification or test.name)[0]
     elif load is not None:
         site, published = load[0], None
     else:
@@ -233,12 +218,6 @@ def tipping(engine: str, file: Path) -> str:
 
 def upright(at: Engine) -> np.ndarray:
     return turned(at.poses()[at.bodies[at.root]][None, 3:], np.array([[0.0, 0.0, 1.0]]))[0]
-
-
-def published_value(mechanism: Mechanism, name: str) -> float | None:
-    known = {fold(each): entry for each, entry in mechanism.specifications.items()}
-    value = known.get(fold(name), {}).get("value")
-    return float(value) if value else None
 
 
 ROWS: dict[str, Callable[[str, Path], Any]] = {

@@ -14,8 +14,6 @@ from __future__ import annotations
 import argparse
 import json
 import math
-import subprocess
-import sys
 import tempfile
 import time
 from collections.abc import Iterator, Mapping, Sequence
@@ -24,7 +22,7 @@ from typing import Any
 
 import numpy as np
 
-from plain import Pin, Slide, World, built, started, turned
+from plain import Pin, Slide, World, built, of_a_process, started, turned
 
 LEG = 3.0
 """Seconds of a leg at least: drawn to low, low to high, high to drawn."""
@@ -94,12 +92,10 @@ def table(engine: str, cases: list[str], files: list[Path]) -> None:
 
 def apart(engine: str, case: str, file: Path) -> str:
     """The worst gap and where, by a process of its own."""
-    command = [sys.executable, __file__, str(file), "--one", engine, case]
-    ran = subprocess.run(command, capture_output=True, text=True, check=False)
-    if ran.returncode:
-        last = ran.stderr.strip().splitlines() or ["?"]
-        return f"fails: {last[-1][:80]} ({ran.returncode})"
-    found = json.loads(ran.stdout.strip().splitlines()[-1])
+    try:
+        found = of_a_process(__file__, file, "--one", engine, case)
+    except RuntimeError as why:
+        return str(why)
     gap = found["gap"]
     return f"{gap:.3g} ({found['pin']}; {found['rate']:.0f} steps/s)" if gap < GONE * 1e3 else "bursts"
 

@@ -12,13 +12,11 @@ from __future__ import annotations
 
 import argparse
 import math
-import subprocess
-import sys
 from pathlib import Path
 
 import numpy as np
 
-from plain import HZ, World, started
+from plain import HZ, World, of_a_process, started
 
 SLOPE = math.radians(20.0)
 SEEN = (2.0, 7.0)
@@ -40,14 +38,15 @@ def main() -> None:
     print("| engine | machine | released, mm/s | set, mm/s |\n|---|---|---|---|")
     for case in (c for c in CASES if not given.engines or c.split(",")[0] in given.engines):
         for file in given.files:
-            cells = " | ".join(_of_a_process(file, case, brakes) for brakes in ("released", "set"))
+            cells = " | ".join(_cell(file, case, brakes) for brakes in ("released", "set"))
             print(f"| {case} | {file.stem} | {cells} |", flush=True)
 
 
-def _of_a_process(file: Path, case: str, brakes: str) -> str:
-    command = [sys.executable, __file__, str(file), "--one", case, brakes]
-    ran = subprocess.run(command, capture_output=True, text=True, check=False)
-    return f"{float(ran.stdout.split()[-1]):.3g}" if ran.returncode == 0 else "fails"
+def _cell(file: Path, case: str, brakes: str) -> str:
+    try:
+        return f"{of_a_process(__file__, file, '--one', case, brakes):.3g}"
+    except RuntimeError as why:
+        return str(why)
 
 
 def downhill(machine: Path, case: str, brakes: str) -> float:

@@ -15,8 +15,6 @@ from __future__ import annotations
 
 import argparse
 import json
-import subprocess
-import sys
 import tempfile
 from collections.abc import Callable
 from pathlib import Path
@@ -24,14 +22,13 @@ from typing import Any
 
 import numpy as np
 
-from plain import HZ, Engine, PhysX, World, built, started
+from plain import HZ, Engine, PhysX, World, built, of_a_process, started
 from yellowiron.each_way import EachWay
 from yellowiron.hydraulics import Hydraulics
 from yellowiron.model.mechanism import Drive as Rated
 from yellowiron.model.mechanism import Mechanism
 from yellowiron.usd import read_mechanism
 
-ENGINES = ("physx", "newton", "mujoco")
 FINE = 1000.0
 """Steps a second of Newton with `--levers`, its integrator Euler's: by its own, drives do work that is lost."""
 REST = 1.0
@@ -46,7 +43,7 @@ Drive = Callable[[np.ndarray], tuple[np.ndarray, np.ndarray]]
 def main() -> None:
     parser = argparse.ArgumentParser(description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter)
     parser.add_argument("files", nargs="*", type=Path)
-    parser.add_argument("--engines", nargs="*", choices=ENGINES, default=list(ENGINES))
+    parser.add_argument("--engines", nargs="*", choices=HZ, default=list(HZ))
     led = parser.add_mutually_exclusive_group()
     led.add_argument("--each-way", action="store_true")
     led.add_argument("--levers", action="store_true")
@@ -61,12 +58,11 @@ def main() -> None:
             print(f"\n{file.parent.name}: greatest speed, of rated\n")
             print("| engine | cylinder | retracts | extends |\n|---|---|---|---|")
             for engine in given.engines:
-                command = [sys.executable, __file__, str(file), "--one", engine, *options]
-                ran = subprocess.run(command, capture_output=True, text=True, check=False)
-                if ran.returncode:
-                    print(f"| {engine} | fails | | |")
+                try:
+                    told = of_a_process(__file__, file, "--one", engine, *options)
+                except RuntimeError as why:
+                    print(f"| {engine} | {why} | | |")
                     continue
-                told = json.loads(ran.stdout.strip().splitlines()[-1])
                 for name, (back, forth) in told["speeds"].items():
                     print(f"| {engine} | {name} | {back:.0%} | {forth:.0%} |", flush=True)
                 if given.levers:
@@ -121,11 +117,7 @@ def stepped(engine: Engine, mechanism: Mechanism | None) -> Drive:
         engine.tell(targets)
         if limits is not None:
             assert isinstance(engine, PhysX)
-            at, moving, wanted = (engine.rows[kind] for kind in ("POSITION", "VELOCITY", "POSITION_TARGET"))
-            engine.rows["MAX_FORCE"][:] = limits.forces_now(wanted, at, moving)
-            engine.rows["MAX_VELOCITY"][:] = limits.speeds_now(wanted, at)
-            engine.write("MAX_FORCE")
-            engine.write("MAX_VELOCITY")
+            engine.limit(limits)
         engine.step()
         return engine.strokes(), engine.speeds()
 

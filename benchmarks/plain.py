@@ -8,6 +8,7 @@ from __future__ import annotations
 
 import contextlib
 import io
+import json
 import subprocess
 import sys
 import tempfile
@@ -20,6 +21,8 @@ from typing import Any, Protocol
 
 import numpy as np
 from pxr import Gf, Sdf, Usd, UsdGeom, UsdPhysics, UsdShade
+
+from yellowiron.each_way import EachWay
 
 ROOT = Path(__file__).resolve().parent.parent
 EXAMPLES = ("wheel_loader", "excavator")
@@ -104,6 +107,16 @@ def started(engine: str, machine: Path, world: World) -> Engine:
     """The machine of a USD file, as drawn and at rest."""
     warnings.simplefilter("ignore")
     return {"physx": PhysX, "newton": Newton, "mujoco": MuJoCo}[engine](machine, world)
+
+
+def of_a_process(script: str, file: Path, *options: str) -> Any:
+    """What a benchmark's `script` prints last, as JSON, of a file in a process of its own. `RuntimeError` with its last
+    words where it fails."""
+    ran = subprocess.run([sys.executable, script, str(file), *options], capture_output=True, text=True, check=False)
+    if ran.returncode:
+        last = ran.stderr.strip().splitlines() or ["?"]
+        raise RuntimeError(f"fails: {last[-1][:80]} ({ran.returncode})")
+    return json.loads(ran.stdout.strip().splitlines()[-1])
 
 
 def turned(quaternions: np.ndarray, vectors: np.ndarray) -> np.ndarray:
@@ -250,6 +263,16 @@ class PhysX:
     def tell(self, targets: np.ndarray) -> None:
         self.rows["POSITION_TARGET"][0, self._own] = targets
         self.write("POSITION_TARGET")
+
+    def limit(self, limits: EachWay) -> None:
+        """Tells forces and speeds of the way that each joint goes now."""
+        for kind in ("POSITION", "VELOCITY"):
+            self._values[kind].read(self.rows[kind])
+        at, moving, wanted = (self.rows[kind] for kind in ("POSITION", "VELOCITY", "POSITION_TARGET"))
+        self.rows["MAX_FORCE"][:] = limits.forces_now(wanted, at, moving)
+        self.rows["MAX_VELOCITY"][:] = limits.speeds_now(wanted, at)
+        self.write("MAX_FORCE")
+        self.write("MAX_VELOCITY")
 
     def write(self, kind: str) -> None:
         """What `rows` has of a kind; infinite limits as what the engine takes for one."""

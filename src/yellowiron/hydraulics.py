@@ -81,7 +81,7 @@ class Hydraulics:
         largest = max(a * v for c in self.circuits.values() for a, v in zip(c.areas, c.speeds, strict=True))
         self.flow = largest if flow is None else float(flow)
         """m³/s of the pump."""
-        self.power = _engine(mechanism) * TO_OIL if power is None else float(power)
+        self.power = engine_power(mechanism) * TO_OIL if power is None else float(power)
         """W at the pump; infinite where nothing says it."""
         self._spool, self._cushion, self._implicit = spool, cushion, implicit
         self._openings = dict.fromkeys(self.circuits, 0.0)
@@ -227,7 +227,7 @@ def _circuit(mechanism: Mechanism, actuator: Actuator) -> Circuit | None:
     )  # fmt: skip
 
 
-def _engine(mechanism: Mechanism) -> float:
+def engine_power(mechanism: Mechanism) -> float:
     """W of the engine, by the first of `ENGINE` that the sheet gives; infinite where it gives none."""
     known = {fold(name): entry for name, entry in mechanism.specifications.items() if entry.get("status") == "ok"}
     values = (known[fold(name)].get("value") for name in ENGINE if fold(name) in known)

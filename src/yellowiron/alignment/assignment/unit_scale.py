@@ -29,6 +29,7 @@ UNLIKELY = {"millimetres": 0.0, "metres": 0.0, "centimetres": 1.5, "inches": 1.5
 APPLIED_TWICE = {"millimetres": 1e3, "centimetres": 1e2}
 """Metres that were taken for these, and written as metres: what a number is then."""
 TWICE = 4.0
+"""So unlikely is that, in the same measure."""
 NO_UNIT = 8.0
 """So unlikely is that no unit explains a length: four standard deviations from what is usual."""
 NEAR = 4.0
