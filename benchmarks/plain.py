@@ -93,6 +93,9 @@ class Engine(Protocol):
     def hold(self) -> None:
         """From now on a cylinder bears ten times its force, as one whose valves are shut."""
 
+    def pace(self, hz: float) -> None:
+        """From now on so many steps a second."""
+
     def step(self) -> None: ...
 
     def strokes(self) -> np.ndarray: ...
@@ -292,6 +295,9 @@ class PhysX:
         self.rows["MAX_FORCE"][0, self._own] *= HELD
         self.write("MAX_FORCE")
 
+    def pace(self, hz: float) -> None:
+        self.hz = hz
+
     def step(self) -> None:
         if self._pushed:
             self._pushes.write(self._wrenches)
@@ -362,6 +368,9 @@ class Newton:
     def hold(self) -> None:
         model = self.solver.mj_model
         _held(model, [model.joint(slide.path.replace("/", "_")).id for slide in self.slides])
+
+    def pace(self, hz: float) -> None:
+        self.hz = hz
 
     def step(self) -> None:
         with self._device():
@@ -449,6 +458,10 @@ class MuJoCo:
 
     def hold(self) -> None:
         _held(self.model, [self.model.joint(slide.name).id for slide in self.slides])
+
+    def pace(self, hz: float) -> None:
+        self.hz = hz
+        self.model.opt.timestep = 1.0 / hz
 
     def step(self) -> None:
         self._step(self.model, self.data)
