@@ -2,7 +2,7 @@
 upright pins, a cylinder beside each.
 
 Every dimension is drawn from a seed, by none of the example's code; simplified as the synthetic loaders are. Both yokes
-stand at an angle of their own.
+stand at an angle of their own, or straight ahead.
 """
 
 from __future__ import annotations
@@ -19,15 +19,20 @@ BARREL, ROD = (0.42, 0.5), (-0.12, 0.46)
 the yoke's pin towards the middle. On the right, between the yokes."""
 
 
+LOCK = 0.6
+"""How far a yoke turns to one side, radians; as far as its cylinder goes for that, it goes to the other."""
+
+
 class YokeRoller(Roller):
     """One machine from one generator of random numbers."""
 
-    def __init__(self, seed: int, *, embedded: bool) -> None:
+    def __init__(self, seed: int, *, straight: bool, embedded: bool) -> None:
         super().__init__(seed, tandem=True, twin=False, embedded=embedded)
         u, s = self.rng.uniform, self.s
         self.rolled = 0.0
         self.front_x, self.rear_x = (side * 1.85 * s * float(u(0.99, 1.08)) for side in (1, -1))
-        self.yaws = {"front_frame": float(u(-0.25, 0.25)), "rear_yoke": float(u(-0.25, 0.25))}
+        turned = 0.0 if straight else 0.25
+        self.yaws = {"front_yoke": float(u(-turned, turned)), "rear_yoke": float(u(-turned, turned))}
         self.art_r = 1.1 * self.pin_r
         self.top = 2.0 * self.drum_r + 0.12 * s
         self.z_pin = self.top + 0.24 * s
@@ -35,7 +40,7 @@ class YokeRoller(Roller):
 
     def draw(self) -> Machine:
         self.frame()
-        ends = (("front_frame", "front_drum", self.front_x, 1), ("rear_yoke", "rear_drum", self.rear_x, -1))
+        ends = (("front_yoke", "front_drum", self.front_x, 1), ("rear_yoke", "rear_drum", self.rear_x, -1))
         for body, drum, x, ahead in ends:
             pose = turned_at(self.yaws[body], x)
             self.m.pose = pose
@@ -45,7 +50,13 @@ class YokeRoller(Roller):
             p = np.array([ahead * self.barrel[0], -self.barrel[1], self.z_pin])
             q = np.array([x + ahead * self.rod[0], -self.rod[1], self.z_pin])
             names = (f"{name}_cylinder_barrel", f"{name}_piston_rod")
-            self.cylinder(name, *names, p, (pose @ np.append(q, 1.0))[:3], Z, 0.035 * self.s)
+            now, low, straight, high = (
+                float(np.linalg.norm((turned_at(angle, x) @ np.append(q, 1.0))[:3] - p))
+                for angle in (self.yaws[body], -ahead * LOCK, 0.0, ahead * LOCK)
+            )
+            way = min(straight - low, high - straight)
+            ways = (now - straight + way, straight + way - now)
+            self.cylinder(name, *names, p, (pose @ np.append(q, 1.0))[:3], Z, 0.05 * self.s, ways=ways)
         return self.m
 
     # ---- the frame, from one pin to the other ----
@@ -67,7 +78,9 @@ class YokeRoller(Roller):
             wall = x + way * 0.3
             low, high = sorted((wall, wall + way * 0.06))
             self.block("fork wall", body, (low, -0.24, z - 0.12), (high, 0.24, deck))
-            outline = around((x * s, 0, 2 * self.art_r), (wall * s + way * e, 0.2 * s, 0), (wall * s + way * e, -0.2 * s, 0))
+            outline = around(
+                (x * s, 0, 2 * self.art_r), (wall * s + way * e, 0.2 * s, 0), (wall * s + way * e, -0.2 * s, 0)
+            )
             shape = plate(f"yoke_fork_{x:.3f}", outline, t, [(x * s, 0, self.art_r)])
             for d in (1, -1):
                 self.m.add("fork", body, body, shape, place((0, 0, self.z_pin + d * (1.25 * t + self.gap)), Z, X))
@@ -92,7 +105,9 @@ class YokeRoller(Roller):
         shaft = 0.09 * s
         y = self.half + 0.02 * s + t / 2
         inner, low = (y - t / 2 + e) / s, self.top / s
-        outline = around((x, r, 2.0 * shaft), (x + 0.3 * s, self.top + 0.1 * s, 0), (x - 0.3 * s, self.top + 0.1 * s, 0))
+        outline = around(
+            (x, r, 2.0 * shaft), (x + 0.3 * s, self.top + 0.1 * s, 0), (x - 0.3 * s, self.top + 0.1 * s, 0)
+        )
         for side, _ in SIDES:
             shape = plate(f"yoke_side_{body}_{side}", outline, t, [(x, r, shaft + self.clearance)])
             m.add("yoke side", body, body, shape, place((0, side * y, 0), XZ, X))
@@ -130,6 +145,7 @@ def turned_at(angle: float, x: float) -> Array:
     return np.asarray(there @ turn @ np.linalg.inv(there))
 
 
-def yoke_roller(seed: int, *, embedded: bool = False) -> Machine:
-    """The machine of a seed, in its own frame, in drawing order, with names."""
-    return YokeRoller(seed, embedded=embedded).draw()
+def yoke_roller(seed: int, *, straight: bool = False, embedded: bool = False) -> Machine:
+    """The machine of a seed, in its own frame, in drawing order, with names; `straight`: with both drums straight
+    ahead."""
+    return YokeRoller(seed, straight=straight, embedded=embedded).draw()
