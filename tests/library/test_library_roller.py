@@ -33,10 +33,12 @@ def test_drums_steer_in_yokes(template: Template, mode: str) -> None:
     follows = chosen.joint(cylinder.slide).follows
     assert (follows.ratio if follows else None) == {"front": None, "all": 1.0, "crab": -1.0}[mode]
     assert ("Crab Offset" in {m.name for m in chosen.measurements}) is (mode == "crab")
+    assert [f for f in library.lint(chosen).findings if f.severity != "info"] == []
     bent = choose(template, {"drums": "tandem"})
     assert bent.bodies_of(bent.joint("rear_drum_joint")) == ("rear_frame", "rear_drum")
     assert bent.bodies_of(bent.joint("front_drum_joint")) == ("front_frame", "front_drum")
     assert [a.name for a in bent.actuators] == ["steering", "drive"]
+    assert [f for f in library.lint(bent).findings if f.severity != "info"] == []
 
 
 @pytest.mark.parametrize(
