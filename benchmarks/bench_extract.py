@@ -2,7 +2,7 @@
 
 Run from the repository's root: `python benchmarks/bench_extract.py [--by] [--faults F] [--manual PAGES]
 [--sets tuned,held,final,last,fresh,fresh2,fresh3,fresh4,fresh5,fresh6,fresh7,fresh8,fresh9,fresh10,fresh11,
-fresh12,fresh13]`.
+fresh12,fresh13,fresh14,fresh15,fresh16]`.
 `--by` adds a line for each layout and language (and type, in the sets of all types), `--faults` writes each value that
 did not come back right, `--manual` reads a manual of so many pages in the guarded child and prints its time and peak
 memory (default: no manual). Seconds are processor time.
@@ -84,7 +84,7 @@ def main() -> None:
                 sheet = make(case, folder)
                 start = time.process_time()
                 one = read_sheet(sheet.path)
-                found = from_sheets(load(case.kind), [one], config=sheet.config)
+                found = from_sheets(load(case.equipment_type), [one], config=sheet.config)
                 seconds += [(time.process_time() - start) / one.pages] * one.pages
                 scored = score(sheet, found, page_texts(sheet.path))
                 total, count = total + scored, count + 1

@@ -30,7 +30,7 @@ from yellowiron.model.template import Template  # noqa: E402
 TYPES = {
     "wheel_loader": ("loader",), "excavator": ("excavator", "mini"), "skid_steer": ("skid_steer",),
     "articulated_dump_truck": ("articulated_truck",), "rigid_dump_truck": ("rigid_truck",),
-    "backhoe_loader": ("backhoe",), "roller": ("roller",), "forklift": ("forklift",),
+    "backhoe_loader": ("backhoe",), "roller": ("roller", "yoke_roller"), "forklift": ("forklift",),
     "telehandler": ("telehandler",), "dozer": ("dozer",),
     "wheeled_excavator": ("wheeled_excavator",), "mobile_crane": ("crane",), "grader": ("grader",),
 }  # fmt: skip

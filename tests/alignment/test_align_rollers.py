@@ -9,6 +9,7 @@ from kit.machines.defects import spoiled
 from kit.machines.rollers import roller
 from kit.machines.synthetic import disguise
 from kit.machines.unseen import found_whole
+from kit.machines.yoke_rollers import yoke_roller
 from yellowiron import library
 from yellowiron.alignment.features.solids import size_of, solids_of
 from yellowiron.alignment.features.wheels import rolling_of
@@ -27,7 +28,20 @@ def test_every_part_is_in_its_body(seed: int, tandem: bool, twin: bool, triangle
     found = found_whole(machine, "roller", seed, triangles=triangles)
     assert found.choices == {
         "drums": "tandem" if tandem else "single", "steering_cylinders": "twin" if twin else "single",
+        "steered_by": "articulation",
     }  # fmt: skip
+
+
+@pytest.mark.slow
+@pytest.mark.parametrize(("seed", "triangles"), [(611, False), (612, False), (613, True)])
+def test_drums_that_steer_in_yokes(seed: int, triangles: bool) -> None:
+    """Both ends are built alike, and the drums stand at angles of their own: without names the machine is asked which
+    end is its front, and stands straight all the same."""
+    found = found_whole(yoke_roller(seed), "roller", seed, triangles=triangles)
+    assert found.choices == {"drums": "tandem", "steered_by": "yokes", "steering_cylinders": "single"}
+    assert "built alike" in found.facing_doubt and "ALN003" in {f.code for f in found.findings}
+    named = align(yoke_roller(seed).assembly(), library.load_template("roller"), Specifications())
+    assert named.facing_doubt == ""
 
 
 @pytest.mark.parametrize("seed", [1100, 1103])

@@ -14,13 +14,18 @@ from kit.builds import MadeOnce, reading_once, without_pages
 from kit.machines.backhoes import backhoe
 from kit.machines.drawn_examples import build_example, drawn_example
 from kit.machines.synthetic import disguise
+from kit.machines.yoke_rollers import yoke_roller
 from yellowiron import usd
 from yellowiron.alignment import align
+from yellowiron.kinematics import measure
 from yellowiron.library import load_template
+from yellowiron.model.alignment import Alignment
+from yellowiron.model.assembly import Assembly
 from yellowiron.model.mechanism import Actuator, Mechanism
-from yellowiron.model.specification import Specifications
+from yellowiron.model.specification import Specification, Specifications
 from yellowiron.model.template import choose
 from yellowiron.pipeline import Machine, build
+from yellowiron.simulation import drive
 from yellowiron.simulation.engine import Setup, poses
 from yellowiron.simulation.registry import ENGINES
 from yellowiron.stages import complete_mechanism
@@ -75,6 +80,54 @@ def test_a_backhoe_loader_with_a_steered_rear_axle(mode: str, tmp_path: Path) ->
     _assert_turned(mode, mechanism, tmp_path / "machine.usda")
 
 
+@pytest.fixture(scope="module")
+def yokes() -> tuple[Assembly, Alignment]:
+    """A tandem roller whose drums steer in yokes, drawn straight by the generator of unseen ones, without names."""
+    assembly, truth, back = disguise(yoke_roller(601, straight=True), 601)
+    found = align(assembly, load_template("roller"), Specifications())
+    assert found.choices["steered_by"] == "yokes" and not found.missing
+    assert [p.part for p in found.parts if p.body != truth[p.part][1]] == []
+    assert (found.frame[:3, :3] @ back[:3, :3].T)[0, 0] > 0.999
+    return assembly, found
+
+
+TURNS = {"front": (1, 0), "all": (1, -1), "crab": (1, 1)}
+"""Mode → which way the front and the rear drum turn as the steering moves to the left."""
+
+
+@pytest.mark.parametrize("mode", TURNS)
+def test_a_tandem_roller_with_drums_in_yokes(mode: str, yokes: tuple[Assembly, Alignment], tmp_path: Path) -> None:
+    """Which way each drum turns; that the machine goes where the mode says, by the drive of MuJoCo; the crab's offset
+    by where the drums then stand."""
+    assembly, found = yokes
+    weight = Specifications({"operating weight": Specification("Operating Weight", 12_000.0, "kg", "ok")})
+    chosen = choose(load_template("roller"), {**found.choices, "steering_mode": mode})
+    mechanism = complete_mechanism(assembly, chosen, found, weight)
+    assert [f.code for f in mechanism.findings if f.severity != "info" and f.code not in ("MEC023", "MEC032")] == []
+    usd.write_machine(mechanism, assembly, tmp_path, name="machine", frame=found.frame)
+    file = tmp_path / "machine.usda"
+    levers = {a.name: a for a in mechanism.actuators if "steering" in a.name}
+    assert set(levers) == ({"steering", "rear_steering"} if mode == "front" else {"steering"})
+    turned = _turned(mechanism, file, levers["steering"], PUSHED, of="yoke")
+    for end, way in zip(("front_yoke", "rear_yoke"), TURNS[mode], strict=True):
+        assert way * turned[end] > 2.5 if way else abs(turned[end]) < 0.05, turned
+    if mode == "front":
+        own = _turned(mechanism, file, levers["rear_steering"], PUSHED, of="yoke")
+        assert own["rear_yoke"] < -2.5 and abs(own["front_yoke"]) < 0.05, own
+    trip = drive(file, engine="mujoco")
+    measured = {m.name: m for m in measure(mechanism)}
+    if mode == "crab":
+        assert trip.crab == pytest.approx(trip.crab_geometry, abs=np.radians(2.0)) and trip.crab > 0.4
+        # Neither drum's heading is the other's: the cylinders are single, one comes out as the other goes in.
+        base, offset = measured["Wheelbase"].model, measured["Crab Offset"].model
+        assert base is not None and offset is not None
+        assert np.arcsin(offset / base) == pytest.approx(trip.crab_geometry, abs=np.radians(6.0))
+        assert "Turning Radius" not in measured
+    else:
+        assert trip.turning_radius == pytest.approx(trip.geometry_radius, rel=0.055)
+        assert "Crab Offset" not in measured
+
+
 def _assert_turned(mode: str, mechanism: Mechanism, file: Path) -> None:
     """Every wheel turns the way that the mode says, and holds where it should."""
     levers = {a.name: a for a in mechanism.actuators if "steering" in a.name}
@@ -96,9 +149,9 @@ def _assert_turned(mode: str, mechanism: Mechanism, file: Path) -> None:
             assert left[f"rear_knuckle_{side}"] == pytest.approx(ahead, abs=0.2), left
 
 
-def _turned(mechanism: Mechanism, file: Path, lever: Actuator, by: float) -> dict[str, float]:
-    """Degrees to the left by which each knuckle, `front_knuckle_l` and so on, has turned after its lever, in metres of
-    the rod, came to rest."""
+def _turned(mechanism: Mechanism, file: Path, lever: Actuator, by: float, *, of: str = "knuckle") -> dict[str, float]:
+    """Degrees to the left by which each knuckle, `front_knuckle_l` and so on, or what else is called so, has turned
+    after its lever, in metres of the rod, came to rest."""
     (joint,) = lever.joints
     step = ENGINES["mujoco"].timestep
     loaded = load("mujoco", Setup(file, mechanism, "fixed", step, (joint.joint,)))
@@ -113,5 +166,5 @@ def _turned(mechanism: Mechanism, file: Path, lever: Actuator, by: float) -> dic
     return {
         name if name[0] in "fr" else f"front_{name}": float(np.degrees(np.arctan2(*rotations[k, (1, 0), 0])))
         for k, name in enumerate(names)
-        if "knuckle" in name
+        if of in name
     }

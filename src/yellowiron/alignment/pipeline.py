@@ -33,7 +33,7 @@ from yellowiron.alignment.assignment.root_fallback import with_root
 from yellowiron.alignment.assignment.search import BELIEVED, Search, variants_of
 from yellowiron.alignment.assignment.sheet_weights import sheet_findings
 from yellowiron.alignment.assignment.sides import twin_role
-from yellowiron.alignment.assignment.weights import side_weights
+from yellowiron.alignment.assignment.weights import ends_untold, side_weights
 from yellowiron.alignment.axes.levers import without_lever
 from yellowiron.alignment.axes.unfound import axis_findings, lines_of, rough_axes, unfound_axes
 from yellowiron.alignment.copies import copies_of
@@ -415,6 +415,8 @@ def _framed(
             against = frame.against
             frame = machine_frame(solids, structure, solution, observation.wheels, template, tracks, facing)
             frame = replace(frame, against=against or frame.against)
+    if frame is not None and not frame.told and ends_untold(template, solution, answer.unary):
+        frame = replace(frame, doubts=(*frame.doubts, "front and rear are built alike, and no name tells them apart"))
     return replace(answer, solution=with_root(solution, structure, solids, template)), frame
 
 

@@ -420,9 +420,10 @@ def holds(when: Choices, chosen: Mapping[str, str]) -> bool:
 
 
 def _chosen(role: Role, chosen: Mapping[str, str]) -> Role:
-    """A role under the choices. One that is no body under them, and of which no geometry is expected, may be absent."""
+    """A role under the choices. One that is no body under them, and of which no geometry is expected, may be absent: a
+    frame is then a piece of the one that it moves with."""
     welded = role.rigid and not holds(role.rigid_when, chosen)
-    absent = welded and not role.kind and not role.many
+    absent = welded and role.kind in ("", "frame") and not role.many
     rigid, optional = role.rigid and not welded, role.optional or absent
     return replace(role, when={}, rigid_when={}, rigid=rigid, optional=optional)
 

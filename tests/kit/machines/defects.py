@@ -27,6 +27,7 @@ from kit.machines.solids import Array, bolt, place
 from kit.machines.synthetic import Machine, loader
 from kit.machines.telehandlers import telehandler
 from kit.machines.wheeled_excavators import wheeled_excavator
+from kit.machines.yoke_rollers import yoke_roller
 from yellowiron.cad.mesh.assembly import shape_of
 from yellowiron.model.assembly import Part
 from yellowiron.model.geometry import Mesh, Shape
@@ -53,6 +54,8 @@ def drawn(kind: str, seed: int, *, segments: int = 32, hollow: bool = True) -> M
             return rigid_truck(seed, embedded=embedded)
         if kind == "roller":
             return roller(seed, embedded=embedded)
+        if kind == "yoke_roller":
+            return yoke_roller(seed, embedded=embedded)
         if kind == "grader":
             return grader(seed, embedded=embedded)
         if kind == "dozer":

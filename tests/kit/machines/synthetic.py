@@ -225,9 +225,11 @@ class Drawer:
         *,
         roles: bool = True,
         longest: float | None = None,
+        ways: tuple[float, float] | None = None,
     ) -> None:
         """Barrel with its eye at P, rod with its eye at Q, pins along `across`. The piston stands so near to the mouth
-        that it reaches little further than the `longest` length."""
+        that it reaches little further than the `longest` length; or the barrel is so long that it goes about so far in
+        and out (`ways`)."""
         self.m.pose, kept = np.eye(4), self.m.pose
         length = float(np.linalg.norm(Q - P))
         d = (Q - P) / length
@@ -235,6 +237,8 @@ class Drawer:
         width = self.eye_w
         out = float(self.rng.uniform(0.2, 0.45)) * length
         tube_start, tube_end = eye, length - out - eye
+        if ways is not None:
+            tube_end = tube_start + 3.0 * bore + sum(ways)
         mouth = tube_end
         hole = self.bore_r
         outer = bore + wall
@@ -264,14 +268,17 @@ class Drawer:
         inside = tube_start + cap + (tube_end - tube_start - cap) * float(self.rng.uniform(0.3, 0.7))
         if longest is not None:
             inside = max(inside, mouth - 1.8 * bore - max(0.0, longest - length))
+        if ways is not None:
+            inside = tube_start + cap + 0.45 * bore + ways[0]
         end = length - eye
         self.m.add(f"{name} rod", rod, rod, tube(f"{name}_rod", rod_r, 0.0, end - inside), place(P + d * inside, d))
         if self.rng.random() < 0.5:
             piston = tube(f"{name}_piston", bore, rod_r, 0.8 * bore)
             self.m.add(f"{name} piston", rod, rod, piston, place(P + d * inside, d))
         else:
-            piston = tube(f"{name}_piston", bore, 0.0, 0.6 * bore)
-            self.m.add(f"{name} piston", rod, rod, piston, place(P + d * (inside - 0.6 * bore), d))
+            thick, behind = (0.6, 0.6) if ways is None else (0.8, 0.0)
+            piston = tube(f"{name}_piston", bore, 0.0, thick * bore)
+            self.m.add(f"{name} piston", rod, rod, piston, place(P + d * (inside - behind * bore), d))
         self.m.add(f"{name} rod eye", rod, rod, eye_plate, place(Q, across, -d))
         if self.rng.random() < 0.3:
             port = tube(f"{name}_port", 0.2 * bore, 0.1 * bore, 0.2 * bore)

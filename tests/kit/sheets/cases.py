@@ -15,6 +15,8 @@ KINDS = ("wheel_loader", "excavator")
 SETS = (*PLAIN, *WORDED)
 HELD_BACK = ("fresh12", "fresh13")
 """The sets that were written last, and for which the least has been mended."""
+FURTHER = ("fresh14", "fresh15", "fresh16")
+"""The sets of the four types that those before do not have: telehandlers, rollers, wheeled and mini excavators."""
 _WORDING = {"tuned": 0, "held": 1, "final": 2, "last": 3}
 _SIXTH = {"tuned": (0, 1, 2), "held": (4,), "final": (5,), "last": (3,)}
 """Of every six machines of a type, in the order of `machines`, those of a split."""
@@ -31,6 +33,11 @@ class Case:
     machine: Machine
     configured: bool = True
     seed: int = 0
+
+    @property
+    def equipment_type(self) -> str:
+        """The type it is read as: a mini excavator is an excavator."""
+        return {"mini_excavator": "excavator"}.get(self.kind, self.kind)
 
     @property
     def name(self) -> str:

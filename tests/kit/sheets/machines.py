@@ -178,6 +178,8 @@ _SUMS = {
     "dozer": {"Width over Tracks": ("Track Gauge", "Shoe Width")},
     "grader": {"Wheelbase": ("Front Axle to Articulation", "Rear Axle to Articulation")},
     "forklift": {"Overall Length": ("Length to Fork Face", "Fork Length")},
+    "roller": {"Operating Weight": ("Weight at Drum", "Weight at Wheels")},
+    "mini_excavator": {"Overall Width": ("Track Gauge", "Shoe Width")},
     "skid_steer": {"Tipping Load": ("Rated Operating Capacity", "Rated Operating Capacity")},
 }  # fmt: skip
 _SMALLER = {
@@ -191,6 +193,11 @@ _SMALLER = {
     "dozer": [("Width over Tracks", "Width over Trunnions"), ("Shipping Weight", "Operating Weight")],
     "grader": [("Tire Centerline Width", "Overall Width"), ("Height to Top of Cylinders", "Overall Height")],
     "backhoe_loader": [("Overall Width", "Loader Bucket Width"), ("Loader Dump Height", "Loader Hinge Pin Height")],
+    "telehandler": [("Capacity at Maximum Height", "Maximum Lift Capacity"), ("Fork Length", "Wheelbase")],
+    "roller": [("Drum Width", "Overall Width"), ("Nominal Amplitude Low", "Nominal Amplitude High")],
+    "wheeled_excavator": [("Maximum Reach at Ground Line", "Maximum Reach"), ("Cab Height", "Overall Height")],
+    "mini_excavator": [("Maximum Vertical Wall Digging Depth", "Maximum Digging Depth"),
+                       ("Maximum Reach at Ground Line", "Maximum Reach"), ("Track Length on Ground", "Track Length")],
     "forklift": [("Ground Clearance Below Mast", "Ground Clearance")],
     "skid_steer": [("Overall Width", "Bucket Width"), ("Dumping Clearance", "Hinge Pin Height at Maximum Lift")],
 }  # fmt: skip
@@ -205,7 +212,7 @@ def typed(kind: str, name: str, seed: str) -> Machine:
     for key, (value, power) in {**_BASES.get(kind, {}), **base}.items():
         grown = value if power is None else value * size**power * dice.uniform(0.955, 1.045)
         fine = grown < 100 and unit_of(kind, key) == "mm" and " Cylinder " not in key
-        values[key] = float(round(grown)) if fine else rounded(kind, key, grown)
+        values[key] = float(round(grown, 0 if grown >= 5 else 2)) if fine else rounded(kind, key, grown)
     if kind in _BASES:
         values = _consistent(kind, values)
     for whole, parts in _SUMS.get(kind, {}).items():
@@ -217,7 +224,7 @@ def typed(kind: str, name: str, seed: str) -> Machine:
 
 
 _STEPS = {"mm": 5.0, "kg": 10.0, "m3": 0.05, "kN": 1.0, "deg": 1.0, "MPa": 0.1, "L/min": 1.0, "s": 0.1, "km/h": 0.1,
-          "rpm": 0.1, "kNm": 0.1, "-": 1.0, "kW": 1.0, "kPa": 1.0, "m/s": 0.01, "m/min": 1.0}  # fmt: skip
+          "rpm": 0.1, "kNm": 0.1, "-": 1.0, "kW": 1.0, "kPa": 1.0, "L": 10.0, "m/s": 0.01, "m/min": 1.0}  # fmt: skip
 
 
 def rounded(kind: str, name: str, value: float) -> float:

@@ -141,8 +141,9 @@ class Sheet:
         value = usual if value is None else value
         unit = unit_of(self.machine.kind, name)
         decimals = {"mm": 0, "kg": 0, "deg": 0, "L/min": 0, "kN": 0, "-": 0, "m3": 2, "kW": 0, "kPa": 0, "m/s": 2,
-                    "m/min": 0}.get(unit, 1)  # fmt: skip
+                    "m/min": 0, "L": 0}.get(unit, 1)  # fmt: skip
         decimals = max(decimals, 1 if unit in ("mm", "deg", "L/min", "kN") and value % 1 else 0)
+        decimals = 2 if unit == "mm" and usual < 5 else decimals
         if unit == "mm" and self.style.metres and usual >= 1000 and " Cylinder " not in name:
             unit, value, decimals = "m", value / 1000, 2 if value % 10 == 0 else 3
         elif unit == "kg" and self.style.tonnes and usual >= 10000:

@@ -91,7 +91,8 @@ def machine_frame(
     flat = _ground_normal(scene) if not tracks else _track_normal(scene, tracks[0])
     swing = _swing(scene, flat)
     up = _up(scene, swing, flat, doubts)
-    left = tracks[0].axis if tracks else _left(scene, swing, up)
+    left = tracks[0].axis if tracks else _across_yokes(scene, swing)
+    left = _left(scene, swing, up) if left is None else left
     if left is None:
         if not axes and not rolling:
             turned = np.eye(4)
@@ -214,20 +215,42 @@ def _stand_alike(wheels: list[Wheel], normal: Floats) -> bool:
 def _swing(scene: _Scene, flat: Floats | None) -> str | None:
     """The root's joint about the vertical: the one along the wheels' plane's normal, else the one to another frame. No
     knuckle's, of which there is one on either side."""
-    template, axes, kinds = scene.template, scene.axes, scene.kinds
     best: tuple[float, str] | None = None
-    for name in sorted(axes):
-        joint = template.joint(name)
-        bodies = template.bodies_of(joint)
-        if template.root not in bodies:
-            continue
-        other = bodies[1] if bodies[0] == template.root else bodies[0]
-        if other is None or kinds[other] in ("barrel", "rod", "wheel") or template.role(other).side:
-            continue
-        score = abs(float(axes[name].direction @ flat)) if flat is not None else float(kinds[other] == "frame")
+    for name, other in _on_root(scene):
+        upright = abs(float(scene.axes[name].direction @ flat)) if flat is not None else 0.0
+        score = upright if flat is not None else float(scene.kinds[other] == "frame")
         if score > 0.8 and (best is None or score > best[0]):
             best = (score, name)
     return best[1] if best is not None else None
+
+
+def _on_root(scene: _Scene) -> list[tuple[str, str]]:
+    """The root's joints to what is no cylinder and no wheel, and has no side; with that body."""
+    template, found = scene.template, []
+    for name in sorted(scene.axes):
+        bodies = template.bodies_of(template.joint(name))
+        if template.root not in bodies:
+            continue
+        other = bodies[1] if bodies[0] == template.root else bodies[0]
+        if other is not None and scene.kinds[other] not in ("barrel", "rod", "wheel") and not template.role(other).side:
+            found.append((name, other))
+    return found
+
+
+def _across_yokes(scene: _Scene, swing: str | None) -> Floats | None:
+    """Across the line from one yoke's pin to the other's, where two frames turn about the upright on the root: what
+    rolls in them is steered, and tells nothing. None where they are not two."""
+    if swing is None:
+        return None
+    along = scene.axes[swing].direction
+    pins = [
+        scene.axes[name].origin
+        for name, other in _on_root(scene)
+        if scene.kinds[other] == "frame" and abs(float(scene.axes[name].direction @ along)) > SAME_DIRECTION
+    ]
+    if len(pins) != 2:
+        return None
+    return np.asarray(np.cross(along, pins[1] - pins[0]), dtype=np.float64)
 
 
 def _common_direction(axes: list[SharedAxis]) -> Floats | None:

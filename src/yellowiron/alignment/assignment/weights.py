@@ -162,6 +162,20 @@ def interchangeable(template: Template, *, joints: bool = True) -> list[frozense
     return [frozenset(g) for g in groups.values() if len({END.findall(name)[0] for name in g}) > 1]
 
 
+def ends_untold(template: Template, solution: Solution, unary: Weights) -> bool:
+    """Whether a machine without arms is built alike in front and at the rear, and what is known of its bodies besides
+    their joints (`unary`) tells hardly better which is which: then either end may be the front."""
+    pairs = [sorted(names) for names in interchangeable(template) if len(names) == 2]
+    other = {a: b for pair in pairs for a, b in (pair, pair[::-1])}
+    ended = {b for b in solution.body_of.values() if END.search(b) and b != template.root}
+    if not ended or not ended <= other.keys() or any(r.kind == "arm" and r.rigid for r in template.roles):
+        return False
+    told = sum(
+        unary.get((c, b), 0) - unary.get((c, other[b]), 0) for c, b in sorted(solution.body_of.items()) if b in other
+    )
+    return told < NAME_WEIGHT
+
+
 def between_twins(template: Template) -> list[tuple[str, str, str]]:
     """Barrels, and rods, of three cylinders between the same two bodies, (left, middle, right), of which two are twins:
     a boom's lift cylinders and the one that levels its forks. Only where they stand tells which is which."""

@@ -301,13 +301,17 @@ def _radius(quantity: Mapping[str, Any], posed: Posed) -> float:
 
 
 def _distance(quantity: Mapping[str, Any], posed: Posed) -> float:
-    """Distance of two joints' anchors or two sites, along an axis where one is named."""
+    """Distance of two joints' anchors or two sites, along an axis where one is named, or `along` that of a joint as it
+    stands."""
     ends = [{"joint": n} for n in quantity.get("joints", ())] + [{"site": n} for n in quantity.get("sites", ())]
     if len(ends) != 2:
         raise Unmeasurable("a distance needs two joints or sites")
     one, two = (_place(end, posed) for end in ends)
     if "axis" in quantity:
         return float(abs(two - one)[_AXES[str(quantity["axis"])]])
+    if "along" in quantity:
+        joint = _joint(quantity["along"], posed)
+        return float(abs((two - one) @ posed.direction(joint.body0, joint.axis)))
     return float(np.linalg.norm(two - one))
 
 

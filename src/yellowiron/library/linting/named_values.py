@@ -22,6 +22,7 @@ _NAMING = {
     "joint": "joint",
     "joints": "joint",
     "from": "joint",
+    "along": "joint",
     "bodies": "body",
 }
 

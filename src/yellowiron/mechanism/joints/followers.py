@@ -23,9 +23,10 @@ def with_followers(
 ) -> tuple[Joint, ...]:
     """The joints, those that follow another with what they follow and their senses told by their leaders.
 
-    A slide's sense is told by its cylinder. One that leads or follows has none as a rule: the first of
-    all leads in the sense of the machine (up, left, forward), and a slide beside its leader points the same way, so
-    that a ratio above 0 says that both move alike. A leader that is not there, or that is cut, leads nothing (MEC037).
+    A slide's sense is told by its cylinder, where that hangs on pins: it extends. One that leads or follows has none as
+    a rule: the first of all leads in the sense of the machine (up, left, forward), and a slide beside its leader points
+    the same way, so that a ratio above 0 says that both move alike. A leader that is not there, or that is cut, leads
+    nothing (MEC037).
     """
     made = {joint.name: joint for joint in joints}
     leads = {j.name: j.follows for j in template.joints if j.follows is not None and j.name in made}
@@ -57,11 +58,12 @@ def with_followers(
 def _sensed(joint: Joint, leader: Joint | None, template: Template, frames: Mapping[str, JointFrame]) -> Joint:
     """A slide that leads or follows, pointing the way that its coupling means."""
     axis = np.asarray(joint.axis, dtype=np.float64)
+    cylinders = [c for a in template.actuators for c in a.cylinders if c.slide == joint.name]
+    if leader is not None and any(c.barrel_joint for c in cylinders):
+        return joint
     if leader is not None and abs(axis @ np.asarray(leader.axis)) > _ASIDE:
         outwards = axis if axis @ np.asarray(leader.axis) > 0.0 else -axis
-    elif any(template.role(body).kind in RAM for body in frames[joint.name].bodies) or any(
-        c.slide == joint.name for a in template.actuators for c in a.cylinders
-    ):
+    elif cylinders or any(template.role(body).kind in RAM for body in frames[joint.name].bodies):
         return joint
     else:
         outwards = machine_sense(axis)

@@ -297,16 +297,17 @@ class _Trip:
         return means[-1]
 
     def _crab(self, engine: Engine) -> float:
-        """Drives as far as it drove ahead, all wheels turned one way: how far to the left it goes of where its root
-        points, radians."""
+        """Drives as far as it drove ahead, all wheels turned one way: how far to the left the middle between them goes
+        of where its root points, radians. Not all are turned as far, so that the machine turns a little, and each of
+        its places goes another way."""
         way = np.zeros(2)
-        rotations, origins = poses(engine)
+        standing = poses(engine)
         for _ in range(self._steps(DISTANCE / SPEED)):
             tell(engine, self._speeds(SPEED))
             engine.step()
-            facing, (rotations, after) = rotations[self._root], poses(engine)
-            way += (facing.T @ (after - origins)[self._root])[:2]
-            origins = after
+            before, standing = standing, poses(engine)
+            moved = self._middles(standing).mean(axis=0) - self._middles(before).mean(axis=0)
+            way += (before[0][self._root].T @ moved)[:2]
         self._rest(engine, 1.0)
         return math.atan2(way[1], way[0])
 

@@ -15,6 +15,7 @@ from kit.sheets.sets.fresh10 import FRESH10
 from kit.sheets.sets.fresh11 import FRESH11
 from kit.sheets.sets.fresh12 import FRESH12
 from kit.sheets.sets.fresh13 import FRESH13
+from kit.sheets.sets.fresh14 import FRESH14, FRESH15, FRESH16
 from kit.sheets.sets.held import FINAL, HELD
 from kit.sheets.sets.last import LAST
 from kit.sheets.sets.tuned import TUNED
@@ -35,4 +36,7 @@ WORDED: dict[str, Worded] = {
     "fresh11": FRESH11,
     "fresh12": FRESH12,
     "fresh13": FRESH13,
+    "fresh14": FRESH14,
+    "fresh15": FRESH15,
+    "fresh16": FRESH16,
 }
