@@ -57,6 +57,8 @@ _NET_BY = re.compile(
 )
 _GROSS_BY = re.compile(r"\bSAE\s*J\s?1995\b", re.IGNORECASE)
 """Standards by which an engine's net power is measured, and its gross one."""
+_GROSS_TOO = re.compile(r"\bISO\s*14396\b", re.IGNORECASE)
+"""A standard whose power the types take for the gross one where a label says the engine's."""
 _PER_MINUTE = re.compile(r"\bmin\s?[-⁻]\s?[1¹](?!\d)")
 _WITHOUT = re.compile(r"\b[wW]/[oO]\b\.?")
 _LINKS = ("", "s", "n", "en", "es", "e", "er")
@@ -234,6 +236,14 @@ def tokens(text: str) -> tuple[str, ...]:
         found.extend(_terms(word))
     found.extend(_english(latin))
     return tuple(found)
+
+
+def without_standard(text: str) -> str:
+    """A label of power without the standard that alone tells whether it is the net or the gross one; "" where it says
+    so itself, or names none: "Engine power according to ISO 1585" is the engine's power, and the net one."""
+    bare = functools.reduce(lambda rest, standard: standard.sub(" ", rest), (_NET_BY, _GROSS_BY, _GROSS_TOO), text)
+    said = set(tokens(bare)) if bare != text else set[str]()
+    return bare if "power" in said and not said & {"net", "gross"} else ""
 
 
 def _terms(text: str) -> list[str]:

@@ -12,7 +12,7 @@ from yellowiron.specs.language.decimal_style import DecimalStyle
 from yellowiron.specs.language.numbers import Reading, read
 from yellowiron.specs.language.quantities import FEET_DASH, FEET_INCHES, Quantity, same
 from yellowiron.specs.language.units import printed_unit
-from yellowiron.specs.language.vocabulary import tokens
+from yellowiron.specs.language.vocabulary import tokens, without_standard
 from yellowiron.specs.layout.statement import COUNTED, GRAVITATIONAL, Statement
 from yellowiron.specs.values.enumerations import COUNTED_PARTS, alternatives, enumerated, opposed, standard_of_two
 
@@ -226,7 +226,7 @@ def _expand(statement: Statement, style: DecimalStyle) -> Iterator[Claim]:
     labels = _labels_of_each(text, label, readings, kept)
     ends = _ends(text, kept) if len(readings) == len(kept) == 2 and labels == [[label]] * 2 else ()
     for index, (reading, own) in enumerate(zip(kept, labels, strict=True)):
-        for one in own:
+        for one in (*own, *filter(None, map(without_standard, own))):
             for claim in _claims_of_reading(statement, one, reading):
                 yield replace(claim, ranged=True, low=ends[index]) if ends else claim
 
