@@ -50,15 +50,15 @@ OPPOSITES = {
 
 _CJK = re.compile(r"[\u3040-\u30ff\u3400-\u9fff\uac00-\ud7af]")
 _TOKEN = re.compile(
-    r"[\u3040-\u30ff\u3400-\u9fff\uac00-\ud7af々]+|[^\W_\u3040-\u30ff\u3400-\u9fff\uac00-\ud7af々]+(?:[.,]\d+)?"
+    r"[\u3040-\u30ff\u3400-\u9fff\uac00-\ud7af々]+|[^\W_\u3040-\u30ff\u3400-\u9fff\uac00-\ud7af々]+(?:[.,]\d+)?|(?<=\s)[-–—](?=\s)"
 )
+_APART = ("-", "–", "—")
+"""What no expression goes across: of "Hydraulic Controls – Pump" the pump is no control pump."""
 _NET_BY = re.compile(
     r"\b(?:ISO\s*(?:9249|1585)|SAE\s*J\s?1349|(?:EEC|EWG|CEE)?\s*80/1269(?:/(?:EEC|EWG|CEE))?)\b", re.IGNORECASE
 )
 _GROSS_BY = re.compile(r"\bSAE\s*J\s?1995\b", re.IGNORECASE)
 """Standards by which an engine's net power is measured, and its gross one."""
-_GROSS_TOO = re.compile(r"\bISO\s*14396\b", re.IGNORECASE)
-"""A standard whose power the types take for the gross one where a label says the engine's."""
 _PER_MINUTE = re.compile(r"\bmin\s?[-⁻]\s?[1¹](?!\d)")
 _WITHOUT = re.compile(r"\b[wW]/[oO]\b\.?")
 _LINKS = ("", "s", "n", "en", "es", "e", "er")
@@ -228,22 +228,22 @@ def tokens(text: str) -> tuple[str, ...]:
     text = _WITHOUT.sub("without ", text).replace("±", " each side ")
     text = _PER_MINUTE.sub(" rpm ", _GROSS_BY.sub(" gross ", _NET_BY.sub(" net ", text)))
     for word in _TOKEN.findall(text.replace("°", " ").replace("º", " ")):
-        if not _CJK.match(word):
+        if word not in _APART and not _CJK.match(word):
             latin.append(word)
             continue
         found.extend(_english(latin))
         latin.clear()
-        found.extend(_terms(word))
+        found.extend(_terms(word) if word not in _APART else ())
     found.extend(_english(latin))
     return tuple(found)
 
 
 def without_standard(text: str) -> str:
-    """A label of power without the standard that alone tells whether it is the net or the gross one; "" where it says
-    so itself, or names none: "Engine power according to ISO 1585" is the engine's power, and the net one."""
-    bare = functools.reduce(lambda rest, standard: standard.sub(" ", rest), (_NET_BY, _GROSS_BY, _GROSS_TOO), text)
+    """A label of an engine's power without the standard that alone tells whether it is the net or the gross one; ""
+    where it says so itself, or names none: "Engine power according to ISO 1585" is the engine's, and the net one."""
+    bare = _GROSS_BY.sub(" ", _NET_BY.sub(" ", text))
     said = set(tokens(bare)) if bare != text else set[str]()
-    return bare if "power" in said and not said & {"net", "gross"} else ""
+    return bare if {"engine", "power"} <= said and not said & {"net", "gross"} else ""
 
 
 def _terms(text: str) -> list[str]:
