@@ -20,8 +20,6 @@ _TIMES = re.compile(r"(?<![\d.,])([2-9])\s*[x×](?![\w])|[x×]\s*([2-9])(?![\d.,
 
 COUNTED_TOGETHER = "this is what they give together"
 """How the doubt ends about a flow that is printed for one of several pumps."""
-BY_A_STANDARD = "the standard in its label tells the net power from the gross one"
-"""The doubt about an engine's power that only its standard tells to be the net or the gross one."""
 PRINTED_FOR_A_FORCE = "for a force"
 """How the doubt ends about a force whose unit is a torque's."""
 
@@ -231,9 +229,8 @@ def _expand(statement: Statement, style: DecimalStyle) -> Iterator[Claim]:
         for one in own:
             for claim in _claims_of_reading(statement, one, reading):
                 yield replace(claim, ranged=True, low=ends[index]) if ends else claim
-            if bare := without_standard(one):
-                for claim in _claims_of_reading(statement, bare, reading):
-                    yield replace(claim, doubt=claim.doubt or BY_A_STANDARD)
+            for claim in _claims_of_reading(statement, bare, reading) if (bare := without_standard(one)) else ():
+                yield replace(claim, doubt="the standard in its label tells the net power from the gross one")
 
 
 def _without_chart(readings: Sequence[Reading]) -> Sequence[Reading]:
