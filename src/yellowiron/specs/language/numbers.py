@@ -82,8 +82,9 @@ def read(text: str, *, unit: str = "", style: DecimalStyle = "unknown") -> tuple
 _NAMED_NEXT = re.compile(r"\s*(?:[-–—~～/|,]|to|bis|à|a)\s*(?:min|max|low|high)\w*\.?\s*:?\s*", re.IGNORECASE)
 
 
-_LISTED = 5.0
-"""How many times one number of a list may be another; a power and its speed, "120/2000 rpm", are farther apart."""
+_LISTED, _AXLES = 5.0, 15.0
+"""How many times one number of a list may be another, and the first of two masses the second ("6000/700 kg" on a laden
+truck's axles); a power and its speed, "120/2000 rpm", are farther apart."""
 
 
 def _with_following_unit(text: str, quantities: list[Quantity]) -> list[Quantity]:
@@ -96,7 +97,8 @@ def _with_following_unit(text: str, quantities: list[Quantity]) -> list[Quantity
             continue
         between = text[one.end : following.start]
         alike = max(one.value, following.value) <= _LISTED * min(one.value, following.value)
-        if _NAMED_NEXT.fullmatch(between) or (alike and between.strip() == "/"):
+        axles = following.dimension == "mass" and following.value < one.value <= _AXLES * following.value
+        if _NAMED_NEXT.fullmatch(between) or ((alike or axles) and between.strip() == "/"):
             found[index] = replace(one, unit=following.unit)
     return found
 

@@ -50,7 +50,7 @@ OPPOSITES = {
 
 _CJK = re.compile(r"[\u3040-\u30ff\u3400-\u9fff\uac00-\ud7af]")
 _TOKEN = re.compile(
-    r"[\u3040-\u30ff\u3400-\u9fff\uac00-\ud7af々]+|[^\W_\u3040-\u30ff\u3400-\u9fff\uac00-\ud7af々]+(?:[.,]\d+)?"
+    r"[\u3040-\u30ff\u3400-\u9fff\uac00-\ud7af々]+|[^\W_\u3040-\u30ff\u3400-\u9fff\uac00-\ud7af々]+(?:[.,]\d+)?|(?<=\s)[–—](?=\s)"
 )
 _NET_BY = re.compile(
     r"\b(?:ISO\s*(?:9249|1585)|SAE\s*J\s?1349|(?:EEC|EWG|CEE)?\s*80/1269(?:/(?:EEC|EWG|CEE))?)\b", re.IGNORECASE
@@ -226,14 +226,21 @@ def tokens(text: str) -> tuple[str, ...]:
     text = _WITHOUT.sub("without ", text).replace("±", " each side ")
     text = _PER_MINUTE.sub(" rpm ", _GROSS_BY.sub(" gross ", _NET_BY.sub(" net ", text)))
     for word in _TOKEN.findall(text.replace("°", " ").replace("º", " ")):
-        if not _CJK.match(word):
+        if word not in "–—" and not _CJK.match(word):
             latin.append(word)
             continue
         found.extend(_english(latin))
         latin.clear()
-        found.extend(_terms(word))
+        found.extend(_terms(word) if word not in "–—" else ())  # no "control pump" in "Hydraulic Controls – Pump"
     found.extend(_english(latin))
     return tuple(found)
+
+
+def without_standard(text: str) -> str:
+    """A label of an engine's power without the standard that alone tells the net one from the gross one, or ""."""
+    bare = _GROSS_BY.sub(" ", _NET_BY.sub(" ", text))
+    said = set(tokens(bare)) if bare != text else set[str]()
+    return bare if {"engine", "power"} <= said and not said & {"net", "gross"} else ""
 
 
 def _terms(text: str) -> list[str]:

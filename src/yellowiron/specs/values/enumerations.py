@@ -112,6 +112,7 @@ _LISTS = (
     re.compile(r"[,，、:：–—-]\s*([^,，、:：–—]*[/／][^,，、:：–—]*)$"),
     re.compile(r"([前後后左右上下]{1,2}(?:[/／][前後后左右上下]{1,2})+)$"),
     re.compile(r"((?<!\S)(?:with|mit|avec|con)[/／](?:without|ohne|sans|sin) \S+)$", re.IGNORECASE),
+    re.compile(r"(?<!\S)((?:en|à|con|mit|avec) \S+ ?[/／] ?(?:en|à|con|sin|ohne|sans) \S+)$", re.IGNORECASE),
     re.compile(r"(?<!\S)(\S+(?:[/／]\S+)+)"),
     re.compile(r"(?<!\S)(\S+(?:\s[/／]\s\S+)+)"),
 )

@@ -99,7 +99,7 @@ def read_grid(
             carried = []
         if not _labels(cells, values[0]):
             label = _labels(_row_cells(grid, heads[-1]), values[0]) if heads else []
-            if not heads or index in naming or _numbers_columns(grid, index, filled):
+            if not heads or index in naming:
                 heads.extend([] if index in heads else [index])
                 continue
             cells = [*label, *cells]  # "Travel speed | JS330 | JS370" over " | High: 5 km/h | …"
@@ -307,20 +307,6 @@ def _head_rows(page: Page, grid: TableGrid) -> list[int]:
             break
         found.append(row)
     return found
-
-
-def _numbers_columns(grid: TableGrid, row: int, filled: Sequence[Cell]) -> bool:
-    """Whether a row without a label names its columns by numbers, models: bare ones, no two alike, over a row with a
-    label."""
-    texts = [c.text for c in filled]
-    below = [c for c in _row_cells(grid, row + 1) if c.lines] if row + 1 < grid.rows else []
-    return (
-        len(set(texts)) == len(texts) > 1
-        and all(t.isdigit() for t in texts)
-        and bool(below)
-        and not looks_like_value(below[0].text)
-        and below[0].columns[1] <= filled[0].columns[0]
-    )
 
 
 def _parts(grid: TableGrid, row: int, cell: Cell) -> bool:
