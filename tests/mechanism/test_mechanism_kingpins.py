@@ -8,10 +8,10 @@ from dataclasses import replace
 
 import numpy as np
 import pytest
-from partly_drawn import without
 
 from kit.machines.backhoes import backhoe
 from kit.machines.lift_trucks import lift_truck
+from kit.machines.partly_drawn import without
 from kit.machines.rollers import roller
 from kit.machines.synthetic import Machine
 from yellowiron.kinematics import ClosedChain

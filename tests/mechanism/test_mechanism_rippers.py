@@ -8,9 +8,9 @@ import math
 
 import numpy as np
 import pytest
-from partly_drawn import without
 
 from kit.machines.dozers import dozer
+from kit.machines.partly_drawn import without
 from kit.machines.unseen import found_whole
 from yellowiron.kinematics import ClosedChain, measure
 from yellowiron.model.mechanism import Mechanism
