@@ -12,7 +12,7 @@ from yellowiron.library.linting.mobility import TemplateMobility, mobility, weld
 from yellowiron.library.linting.movement import connections, loose_joints, movement
 from yellowiron.model.finding import Finding
 from yellowiron.model.rows import expand, split_index
-from yellowiron.model.template import Template, choose, in_position
+from yellowiron.model.template import AS_DRAWN, Template, choose, holds, in_position
 from yellowiron.support.graphs import blocks
 
 MOST_COMBINATIONS = 512
@@ -87,8 +87,16 @@ def counts(template: Template) -> dict[str, int]:
 
 
 def _combinations(template: Template) -> Iterator[dict[str, str]]:
-    names = [v.name for v in template.variants]
-    for values in itertools.product(*(v.choices for v in template.variants)):
-        choices = dict(zip(names, values, strict=True))
-        if template.go_together(choices):
-            yield choices
+    """Every set of choices that goes together; of joints that are held in positions, which weld wherever they are, all
+    as drawn and all in their last."""
+    held = {joint.chosen_by: joint for joint in template.joints if joint.positions}
+    drawn = dict.fromkeys(held, AS_DRAWN)
+    others = [v for v in template.variants if v.name not in held]
+    for values in itertools.product(*(v.choices for v in others)):
+        choices = dict(zip((v.name for v in others), values, strict=True))
+        if not template.go_together({**choices, **drawn}):
+            continue
+        yield {**choices, **drawn}
+        there = {name: [*joint.positions][-1] for name, joint in held.items() if holds(joint.when, choices)}
+        if there and template.go_together({**choices, **drawn, **there}):
+            yield {**choices, **drawn, **there}
