@@ -63,7 +63,7 @@ def solve(
     if lent.values:
         specifications = specs.merge(lent, specifications)
         mechanism = complete_mechanism(assembly, template, alignment, specifications, data)
-    start = kinematics.legal_start(mechanism, {j.name: j.at for j in template.joints if j.at})
+    start = kinematics.legal_start(mechanism, {j.name: float(j.at) for j in template.joints if j.at})
     if start is not None:
         assembly, template, alignment = kinematics.started(assembly, template, alignment, start)
         template = in_position(template)
