@@ -26,8 +26,8 @@ def test_it_moves_as_it_should(template: Template) -> None:
         expected = 20 + (found.choices["steering_mode"] == "front") + 4 * (found.choices["hoist"] == "hook")
         expected -= found.choices["telescoping"] == "pinned"
         assert (found.computed, found.expected) == (expected, expected), found.choices
-    # 108 without positions and jib; a jib, and sections that are pinned (of four alone), each drawn and in its last.
-    assert len(report.mobility) == 3 * 108 + 4 * 36
+    # 108 without positions, three times as many with a jib's; 36 with pinned sections, as drawn and in three positions.
+    assert len(report.mobility) == 4 * 108 + 8 * 36
 
 
 def test_pinned_sections_are_held_at_shares_of_a_stroke(template: Template) -> None:

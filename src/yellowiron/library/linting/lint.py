@@ -15,7 +15,7 @@ from yellowiron.model.rows import expand, split_index
 from yellowiron.model.template import AS_DRAWN, Template, choose, holds, in_position
 from yellowiron.support.graphs import blocks
 
-MOST_COMBINATIONS = 512
+MOST_COMBINATIONS = 1024
 """Sets of choices that are looked at; a template with more says so."""
 _ORDER = ("error", "warning", "info")
 
@@ -87,8 +87,8 @@ def counts(template: Template) -> dict[str, int]:
 
 
 def _combinations(template: Template) -> Iterator[dict[str, str]]:
-    """Every set of choices that goes together; of joints that are held in positions, which weld wherever they are, all
-    as drawn and all in their last."""
+    """Every set of choices that goes together. Joints that are held in positions weld wherever they are: all of them as
+    drawn, all in their first position, and so on, not one by one."""
     held = {joint.chosen_by: joint for joint in template.joints if joint.positions}
     drawn = dict.fromkeys(held, AS_DRAWN)
     others = [v for v in template.variants if v.name not in held]
@@ -97,6 +97,8 @@ def _combinations(template: Template) -> Iterator[dict[str, str]]:
         if not template.go_together({**choices, **drawn}):
             continue
         yield {**choices, **drawn}
-        there = {name: [*joint.positions][-1] for name, joint in held.items() if holds(joint.when, choices)}
-        if there and template.go_together({**choices, **drawn, **there}):
-            yield {**choices, **drawn, **there}
+        there = {name: [*joint.positions] for name, joint in held.items() if holds(joint.when, choices)}
+        for number in range(max(map(len, there.values()), default=0)):
+            at = {name: places[min(number, len(places) - 1)] for name, places in there.items()}
+            if template.go_together({**choices, **drawn, **at}):
+                yield {**choices, **drawn, **at}
