@@ -166,7 +166,7 @@ def check(file: Path | str, *, machine: Machine | Mechanism | Path | str | None 
 
     mechanism = machine if isinstance(machine, Mechanism) else usd.read_mechanism(_file(machine))
     poses = [checks.Posed(strokes, bodies) for strokes, bodies in kinematics.stroke_poses(mechanism)]
-    reduced, _ = exporters.with_tendons(mechanism)
+    reduced, _ = exporters.with_tendons(exporters.with_ropes(mechanism)[0])
     return tuple(checks.check_against(Path(file), mechanism, poses, reduced=reduced))
 
 

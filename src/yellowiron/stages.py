@@ -22,6 +22,7 @@ from yellowiron.alignment import (
     twin_role,
 )
 from yellowiron.mechanism import (
+    at_known_places,
     build_mechanism,
     compare_declared,
     declared_findings,
@@ -54,7 +55,7 @@ def solve(
     the machine brought to a pose within its limits."""
     chosen = as_said(template, alignment, {**alignment.choices, **choices})
     specifications = _missed(specifications, template, chosen)
-    template = in_position(expand(chosen, alignment.counts))
+    template = in_position(at_known_places(expand(chosen, alignment.counts), specifications))
     alignment, tape = on_sheet(assembly, template, alignment, specifications, data)
     mechanism = complete_mechanism(assembly, template, alignment, specifications, data)
     compared = compare_declared(mechanism, assembly, alignment)
@@ -62,7 +63,7 @@ def solve(
     if lent.values:
         specifications = specs.merge(lent, specifications)
         mechanism = complete_mechanism(assembly, template, alignment, specifications, data)
-    start = kinematics.legal_start(mechanism, {j.name: j.at for j in template.joints if j.at})
+    start = kinematics.legal_start(mechanism, {j.name: float(j.at) for j in template.joints if j.at})
     if start is not None:
         assembly, template, alignment = kinematics.started(assembly, template, alignment, start)
         template = in_position(template)

@@ -9,6 +9,7 @@ import pytest
 from planar_zbar import direction, length, meet, point, side, turned, wrapped
 
 from yellowiron.kinematics import ClosedChain, complete, lever_table, measure
+from yellowiron.kinematics.measuring.bench import Bench
 from yellowiron.kinematics.measuring.quantities import wheels
 from yellowiron.kinematics.strength import carried
 from yellowiron.model.mechanism import Actuator, ActuatorJoint, Body, Cylinder, Drive, Joint, Loop, Mechanism, Site
@@ -132,6 +133,18 @@ def test_measures_without_wheels():
     assert found["deepest"].model == pytest.approx(-solved(-0.4, 0.4)[2][1], abs=1e-9)
     assert "no wheels" in found["reach"].reason
     assert found["level"].model is not None and found["level"].model < 0.0
+
+
+def test_a_motor_turns_so_far_from_the_drawn_pose():
+    tip = {"kind": "height", "site": "tip"}
+    for angle, words in ((math.pi / 2, "90 deg"), (-0.3, "-0.3 rad")):
+        bench = Bench(crane())
+        state = bench.pose(({"set": {"swing": words}},))
+        assert bench.chain.coordinate(state, "swing") == pytest.approx(angle, abs=1e-9)
+        assert bench.value(tip, state) == pytest.approx(T[1], abs=1e-9)
+    # Of a lever with a negative sign, in its own sense; metres with their unit.
+    state = bench.pose(({"set": {"arm": "100 mm"}},))
+    assert bench.chain.coordinate(state, "arm_ram") == pytest.approx(-0.1, abs=1e-9)
 
 
 def test_lever_table_of_an_actuator_with_a_negative_sign():

@@ -13,8 +13,9 @@ import pytest
 from kit.machines import mast
 from yellowiron import library
 from yellowiron.library.show import tree
-from yellowiron.model.errors import TemplateError
-from yellowiron.model.specification import Specifications
+from yellowiron.mechanism import at_known_places
+from yellowiron.model.errors import MechanismError, TemplateError
+from yellowiron.model.specification import Specification, Specifications, share_of
 from yellowiron.model.template import (
     ActuatorTemplate,
     Follows,
@@ -198,6 +199,21 @@ def test_positions_that_cannot_be_are_said(tmp_path: Path, entry: dict[str, obje
     with pytest.raises(TemplateError, match=words) as found:
         library.load_template(tmp_path)
     assert "base2section_joint.positions" in str(found.value.where)
+
+
+def test_a_position_may_be_a_share_of_a_sheet_s_value(tmp_path: Path) -> None:
+    places = {"46": "46 % of Section Stroke", "out": "2 m"}
+    joint = {"joint_type": "Prismatic", "Body": ["base", "section"], "positions": places}
+    (tmp_path / "joints.json").write_text(json.dumps({"section_joint": joint}), encoding="utf-8")
+    template = library.load_template(tmp_path)
+    half = choose(template, {"section": "46"})
+    assert half.joints[0].at == "46 % of Section Stroke" and share_of(half.joints[0].at) == (0.46, "Section Stroke")
+    stroke = Specification("Section Stroke", 5.0, "m", "ok", "user")
+    assert at_known_places(half, Specifications({stroke.name: stroke})).joints[0].at == pytest.approx(2.3)
+    with pytest.raises(MechanismError, match="nothing says that"):
+        at_known_places(half, Specifications())
+    found = library.lint(template).findings
+    assert ("TPL004", "section_joint") in {(f.code, f.where) for f in found} and "TPL010" not in {f.code for f in found}
 
 
 def test_a_joint_in_positions_is_a_variant_of_its_name(tmp_path: Path) -> None:

@@ -2,6 +2,8 @@
 
 from __future__ import annotations
 
+import math
+
 import pytest
 
 from yellowiron import library
@@ -19,10 +21,25 @@ def test_it_moves_as_it_should(template: Template) -> None:
     assert [f for f in report.findings if f.severity != "info"] == []
     for found in report.mobility:
         # Slewing, luffing, telescoping, steering, four wheels, eight of the outriggers; the rear wheels' steering
-        # unless it follows; the hook's three ways to swing and its rope. The lint takes two further axles.
+        # unless it follows; the hook's three ways to swing and its rope. The lint takes two further axles. Sections
+        # that are pinned do not move, nor does a jib.
         expected = 20 + (found.choices["steering_mode"] == "front") + 4 * (found.choices["hoist"] == "hook")
+        expected -= found.choices["telescoping"] == "pinned"
         assert (found.computed, found.expected) == (expected, expected), found.choices
-    assert len(report.mobility) == 108
+    # 108 without positions, three times as many with a jib's; 36 with pinned sections, as drawn and in three positions.
+    assert len(report.mobility) == 4 * 108 + 8 * 36
+
+
+def test_pinned_sections_are_held_at_shares_of_a_stroke(template: Template) -> None:
+    variants = {v.name: v for v in template.variants}
+    assert variants["telescoping"].decided_by == variants["jib"].decided_by == "user"
+    for name in ("second_section", "third_section", "fourth_section"):
+        assert variants[name].choices == ("drawn", "46", "92", "100")
+        chosen = choose(template, {"telescoping": "pinned", "sections": "four", name: "92"})
+        assert chosen.joint(f"{name}_joint").at == "92 % of Telescoping Cylinder Stroke"
+    assert not template.go_together({"telescoping": "pinned", "sections": "three"})
+    held = choose(template, {"jib": "pinned", "jib_offset": "40"}).joint("jib_offset_joint")
+    assert held.at == pytest.approx(math.radians(40.0)) and "jib" not in {r.name for r in choose(template, {}).roles}
 
 
 @pytest.mark.parametrize(("sections", "followers"), [("two", 0), ("three", 1), ("four", 2)])

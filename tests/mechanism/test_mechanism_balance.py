@@ -8,9 +8,9 @@ from pathlib import Path
 import numpy as np
 import pytest
 from mechanism_machine import specification
-from partly_drawn import without
 
 from kit.machines.lift_trucks import lift_truck
+from kit.machines.partly_drawn import without
 from yellowiron.library import load_template
 from yellowiron.library.notation.validated_json import read_document
 from yellowiron.library.parsing.usual import read_balance

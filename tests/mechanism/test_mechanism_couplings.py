@@ -4,9 +4,9 @@ from __future__ import annotations
 
 import numpy as np
 import pytest
-from partly_drawn import without
 
 from kit.machines.dozers import dozer
+from kit.machines.partly_drawn import without
 from yellowiron.library import load_template
 from yellowiron.model.rows import as_drawn
 from yellowiron.model.template import choose

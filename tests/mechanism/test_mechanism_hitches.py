@@ -5,9 +5,9 @@ from __future__ import annotations
 from collections.abc import Callable
 
 import pytest
-from partly_drawn import without
 
 from kit.machines.articulated_trucks import articulated_truck
+from kit.machines.partly_drawn import without
 from kit.machines.rollers import roller
 from kit.machines.synthetic import Machine
 from yellowiron.library import load_template

@@ -8,10 +8,10 @@ from dataclasses import replace
 
 import numpy as np
 import pytest
-from partly_drawn import without
 
 from kit.machines.backhoes import backhoe
 from kit.machines.lift_trucks import lift_truck
+from kit.machines.partly_drawn import without
 from kit.machines.rollers import roller
 from kit.machines.synthetic import Machine
 from yellowiron.kinematics import ClosedChain
@@ -110,7 +110,7 @@ def test_what_is_drawn_whole_is_steered_by_its_cylinder() -> None:
 
 def test_a_document_s_limit_of_a_kingpin_holds(monkeypatch: pytest.MonkeyPatch) -> None:
     """The finding asks for it, and it was dropped."""
-    import partly_drawn
+    from kit.machines import partly_drawn
 
     def limited(kind: str) -> Template:
         template = load_template(kind)

@@ -4,9 +4,9 @@ from __future__ import annotations
 
 import numpy as np
 import pytest
-from partly_drawn import without
 
 from kit.machines.lift_trucks import lift_truck
+from kit.machines.partly_drawn import without
 from yellowiron.model.mechanism import ESTIMATE
 
 SLIDES = ("outer_mast2inner_mast_joint", "inner_mast2carriage_joint")

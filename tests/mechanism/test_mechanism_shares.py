@@ -9,9 +9,9 @@ import numpy as np
 import pytest
 from hypothesis import given
 from hypothesis import strategies as st
-from partly_drawn import without
 
 from kit.machines.lift_trucks import lift_truck
+from kit.machines.partly_drawn import without
 from yellowiron.library import list_templates, load_template
 from yellowiron.library.notation.validated_json import read_document
 from yellowiron.library.parsing.usual import read_shares

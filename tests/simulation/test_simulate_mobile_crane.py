@@ -20,6 +20,7 @@ from yellowiron.simulation import (
     ChartLoad,
     chart_stability,
     chart_tests,
+    chart_tipping,
     drive,
     read_load_chart,
     run_tests,
@@ -113,6 +114,22 @@ def test_over_its_sides_it_tips_about_the_floats_of_that_side(file: Path) -> Non
     # The mass that the figure counts besides is the hook's and its rope's.
     hanging = sum(b.mass for b in mechanism.bodies if b.name in ("hook_block", "hoist_rope"))
     assert [*found.values()] == pytest.approx([hanging, hanging], rel=0.01)
+
+
+@pytest.mark.parametrize("slewed", [0.0, math.pi / 2])
+def test_in_an_engine_it_tips_as_statics_says_over_front_and_side(
+    file: Path, values: ModuleType, slewed: float
+) -> None:
+    """The chart has one load for all directions: that of the front, over which this crane tips first."""
+    rows = [ChartLoad(n, r, 1000.0 * values.CHART[n][r]) for n, r in ((16.4, 11.0), (23.45, 14.0), (30.5, 20.0))]
+    hanging = sum(b.mass for b in read_mechanism(file).bodies if b.name in ("hook_block", "hoist_rope"))
+    figures = run_tests(file, engine="mujoco", tests=chart_tipping(file, rows, slewed=slewed))
+    for row, figure, statics in zip(rows, figures, chart_stability(file, rows, slewed=slewed), strict=True):
+        assert figure.engine_value is not None and statics.tips_at is not None
+        assert figure.statics_value == pytest.approx(statics.tips_at - hanging, rel=1e-6)
+        assert figure.engine_value == pytest.approx(figure.statics_value, rel=0.1)
+        share = (figure.engine_value + hanging) / (values.STABILITY * row.load)
+        assert share > 1.0 if slewed else share == pytest.approx(1.0, abs=0.1)
 
 
 def test_rated_loads_are_hauled_in_at_three_radii(file: Path, values: ModuleType) -> None:

@@ -39,6 +39,21 @@ def test_it_stands_on_both_edges_of_its_wheels(mechanism: Mechanism) -> None:
     assert sorted({round(float(abs(p[1])), 2) for _, p in under}) == [0.55, 0.85]
 
 
+def test_a_ball_bears_under_its_middle(mechanism: Mechanism) -> None:
+    """A track's hidden wheel: a crawler crane stood on the sides of its balls, outside of its shoes."""
+    chain = ClosedChain(mechanism)
+    wheel = next(b for b in mechanism.bodies if b.name == supports(mechanism, chain, chain.drawn)[0][0])
+    hull = np.asarray(wheel.hull)
+    middle, radius = 0.5 * (hull.min(axis=0) + hull.max(axis=0)), 0.5 * float(np.ptp(hull[:, 2]))
+    turns = np.linspace(0.0, 2.0 * np.pi, 33)[:-1]
+    rings = [np.stack([np.cos(a) * np.cos(turns), np.full(32, np.sin(a)), np.cos(a) * np.sin(turns)], axis=1)
+             for a in np.linspace(-0.5 * np.pi, 0.5 * np.pi, 33)]  # fmt: skip
+    ball = dataclasses.replace(wheel, hull=middle + radius * np.concatenate(rings))
+    rolled = dataclasses.replace(mechanism, bodies=tuple(ball if b.name == wheel.name else b for b in mechanism.bodies))
+    under = [p for name, p in supports(rolled, ClosedChain(rolled), chain.drawn) if name == wheel.name]
+    assert len(under) == 1 and float(under[0][1]) == pytest.approx(float(middle[1]), abs=1e-6)
+
+
 def test_a_load_ahead_tips_it_over_the_front_wheels(mechanism: Mechanism) -> None:
     chain = ClosedChain(mechanism)
     _, moment = balance(mechanism)

@@ -34,7 +34,8 @@ def check_against(
 ) -> tuple[Finding, ...]:
     """`check`, and the file held against the machine that it was written from: its bodies, joints, limits and masses
     over the machine's `poses` (codes `EXP…`). Errors as in `check`, and where the file is a USD file. `reduced`: the
-    machine as it is where its cylinders are distances, for files that write them so."""
+    machine as it is where its cylinders are distances and its hooks hang on nothing but rope, for files that write them
+    so."""
     file = Path(path)
     if not is_exchange(file):
         raise YellowironError(
@@ -43,8 +44,10 @@ def check_against(
         )  # fmt: skip
     view, own = read_exchange(file)
     slides = {cylinder.slide for cylinder in mechanism.cylinders}
-    if reduced is not None and any(j.type == "distance" and j.path in slides for j in view.joints):
-        mechanism = reduced
+    if reduced is not None:
+        hung = {*reduced.floating} - {*mechanism.floating} - {end for joint in view.joints for end in joint.bodies}
+        if hung or any(j.type == "distance" and j.path in slides for j in view.joints):
+            mechanism = reduced
     view = with_loose(view, {joint.name for joint in mechanism.joints if joint.free})
     return _sorted((*_of_exchange(view, own), *compare(view, mechanism, poses)))
 

@@ -47,7 +47,7 @@ EXPORTERS: Mapping[str, Exporter] = MappingProxyType(
     {
         "mjcf": Exporter("MJCF", "yellowiron.exporters.mjcf.document:export_mjcf", scene="scene.xml", detailed=True),
         "mjcf-tendons": Exporter(
-            "MJCF, its cylinders as tendons",
+            "MJCF, its cylinders and ropes as tendons",
             "yellowiron.exporters.mjcf.document:export_tendons",
             scene="scene.xml",
             unsaid="yellowiron.exporters.mjcf.document:tendons_unsaid",

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterable, Iterator, Sequence
+from collections.abc import Iterable, Iterator, Mapping, Sequence
 from dataclasses import dataclass, replace
 
 import numpy as np
@@ -17,6 +17,9 @@ ASIDE = 1e-3
 _SAME = 1e-6
 """Metres between pins that are one."""
 
+Ends = tuple[tuple[str, Vector], tuple[str, Vector]]
+"""Two bodies with a point on each (machine frame, drawn pose)."""
+
 
 @dataclass(frozen=True)
 class Tendon:
@@ -26,7 +29,7 @@ class Tendon:
 
     cylinder: Cylinder
     slide: Joint
-    ends: tuple[tuple[str, Vector], tuple[str, Vector]]
+    ends: Ends
     length: float
 
 
@@ -54,7 +57,8 @@ def with_tendons(mechanism: Mechanism) -> tuple[Mechanism, tuple[Tendon, ...]]:
                 tendons.append(tendon)
     if not gone:
         return mechanism, ()
-    bodies = tuple(_heavier(body, mechanism, gone) for body in mechanism.bodies if body.name not in gone)
+    ends = {name: tendon.ends for name, tendon in gone.items()}
+    bodies = tuple(heavier(body, mechanism, ends) for body in mechanism.bodies if body.name not in gone)
     sites = tuple(site for site in mechanism.sites if site.body not in gone)
     kept = tuple(s for s in mechanism.sensors if s.body not in gone and not _of_lost(s.joint, joints, tendons))
     tree = tuple(_tree(mechanism, joints))
@@ -174,12 +178,13 @@ def _tree(mechanism: Mechanism, joints: Sequence[Joint]) -> Iterator[Joint]:
         yield replace(joint, cut=False)
 
 
-def _heavier(body: Body, mechanism: Mechanism, gone: dict[str, Tendon]) -> Body:
-    """A body with what the cylinders' halves weigh on its pins, as points: as levers on their two pins they would."""
+def heavier(body: Body, mechanism: Mechanism, gone: Mapping[str, Ends]) -> Body:
+    """A body with what bodies that are `gone` weigh at their ends on it, as points: as levers on their two pins they
+    would."""
     points: list[tuple[float, Floats]] = []
-    for name, tendon in gone.items():
+    for name, ends in gone.items():
         half = mechanism.body(name)
-        (first, start), (second, end) = tendon.ends
+        (first, start), (second, end) = ends
         along = np.subtract(end, start)
         share = float(np.subtract(half.center_of_mass, start) @ along) / float(along @ along)
         for held, part, at in ((first, 1.0 - share, start), (second, share, end)):

@@ -78,13 +78,22 @@ from yellowiron.support.lazy import lazy_names
 if TYPE_CHECKING:
     from yellowiron.mechanism.build import build_mechanism
     from yellowiron.mechanism.declared import ComparedJoint, compare_declared, declared_findings, declared_values
+    from yellowiron.mechanism.values import at_known_places
 
-__all__ = ["ComparedJoint", "build_mechanism", "compare_declared", "declared_findings", "declared_values"]
+__all__ = [
+    "ComparedJoint",
+    "at_known_places",
+    "build_mechanism",
+    "compare_declared",
+    "declared_findings",
+    "declared_values",
+]
 
 __getattr__, __dir__ = lazy_names(
     __name__,
     {
         "ComparedJoint": "declared",
+        "at_known_places": "values",
         "build_mechanism": "build",
         "compare_declared": "declared",
         "declared_findings": "declared",

@@ -14,7 +14,7 @@ from yellowiron.mechanism.actuation import cylinders, drives
 from yellowiron.mechanism.actuation.direct_drives import direct_drives, with_direct_hinges, without_cylinders
 from yellowiron.mechanism.actuation.proportion import proportion_of
 from yellowiron.mechanism.actuation.usual_hinges import hinges_driven_directly
-from yellowiron.mechanism.actuation.winches import winch_drives, winch_limits, with_winches
+from yellowiron.mechanism.actuation.winches import winch_drives, winch_falls, winch_limits, with_winches
 from yellowiron.mechanism.bodies import body, mass
 from yellowiron.mechanism.bodies.choice import Choice
 from yellowiron.mechanism.bodies.hidden_knuckles import with_knuckles
@@ -118,6 +118,8 @@ def build_mechanism(
     stated = drives.stated_drives(template, frames, findings)
     powered |= stated
     actuators = drives.actuators(template, frames, fitted, stated, findings, winches=winches)
+    falls = winch_falls(template, specifications)
+    actuators = tuple(replace(a, falls=falls.get(a.name, 0)) for a in actuators)
     slides = {f.cylinder.slide: f for group in fitted.values() for f in group}
     reached = {f.cylinder.slide: (f.lower, f.upper, f.evidence) for f in slides.values()}
     reached |= winch_limits(template, frames, specifications, findings)

@@ -3,13 +3,14 @@
 from __future__ import annotations
 
 from collections.abc import Mapping
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from typing import Any
 
+from yellowiron.model.errors import MechanismError
 from yellowiron.model.finding import Finding
 from yellowiron.model.mechanism import DEFAULT
-from yellowiron.model.specification import Specification, Specifications
-from yellowiron.model.template import ActuatorTemplate
+from yellowiron.model.specification import Specification, Specifications, share_of
+from yellowiron.model.template import ActuatorTemplate, JointTemplate, Template
 from yellowiron.support.text import display
 
 _JOINT_KEYS: Mapping[str, str] = {
@@ -89,6 +90,25 @@ def limit(entry: float | str | None, specifications: Specifications) -> tuple[fl
     if found.evidence is not None:
         evidence |= {"page": found.evidence.page, "quote": found.evidence.quote}
     return sign * found.value, evidence
+
+
+def at_known_places(template: Template, specifications: Specifications) -> Template:
+    """The template with joints that are held at a share of a specification held there, in SI. `MechanismError` for a
+    specification that nothing gives."""
+
+    def placed(joint: JointTemplate) -> JointTemplate:
+        share = share_of(joint.at)
+        if share is None:
+            return joint
+        value = known(specifications, share[1])
+        if value is None:
+            words = f"It is to be held at {joint.at}, and nothing says that"
+            raise MechanismError(
+                words, where=joint.name, hint=f'Give --set "{share[1]}=…", or --set {joint.chosen_by}=drawn.'
+            )
+        return replace(joint, at=share[0] * value.value)
+
+    return replace(template, joints=tuple(map(placed, template.joints)))
 
 
 def carried(specifications: Specifications) -> dict[str, Mapping[str, Any]]:

@@ -10,7 +10,7 @@ from typing import Any, Literal
 
 from yellowiron.model.finding import Finding
 from yellowiron.model.geometry import Floats
-from yellowiron.model.machine_tests import MachineTest, PayloadTemplate
+from yellowiron.model.machine_tests import SPARSE, MachineTest, PayloadTemplate
 from yellowiron.model.sensor import Sensor
 from yellowiron.model.template import Follows, JointType, Material, MeasurementTemplate
 
@@ -244,12 +244,13 @@ class ActuatorJoint:
 class Actuator:
     """What one lever commands. For cylinders the first joint is the driven slide and the others follow through the
     loops; the actuator's coordinate is that slide's, metres from the drawn pose, positive as the actuator's positive
-    sense."""
+    sense. `falls`: of a winch, how many lines of its rope carry what it moves; 0 of anything else."""
 
     name: str
     kind: Literal["cylinder", "motor"]
     joints: tuple[ActuatorJoint, ...]
     cylinders: tuple[str, ...] = ()
+    falls: int = field(default=0, metadata={SPARSE: True})
 
 
 @dataclass(frozen=True)

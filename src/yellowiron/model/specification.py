@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import functools
+import re
 from collections.abc import Iterator, Mapping
 from dataclasses import dataclass, field
 from typing import Literal
@@ -11,6 +12,8 @@ from yellowiron.model.finding import Finding
 
 Status = Literal["ok", "review", "conflict", "missing", "unreadable"]
 Source = Literal["template", "sheet", "data", "set", "calibrated", "geometry"]
+
+_SHARE = re.compile(r"^\s*([-+]?[0-9]+(?:\.[0-9]+)?)\s*%\s*of\s+(\S.*?)\s*$")
 
 
 @dataclass(frozen=True)
@@ -99,3 +102,9 @@ class Specifications:
 def fold(name: str) -> str:
     """A name without case, underscores, hyphens and spaces: how template keys and values are compared."""
     return "".join(c for c in name.casefold() if c not in " _-\t\n")
+
+
+def share_of(text: object) -> tuple[float, str] | None:
+    """'46 % of Telescoping Cylinder Stroke' → (0.46, the specification's name); None for anything else."""
+    found = _SHARE.match(text) if isinstance(text, str) else None
+    return (0.01 * float(found[1]), " ".join(found[2].split())) if found is not None else None

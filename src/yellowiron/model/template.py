@@ -87,10 +87,10 @@ class JointTemplate:
     `ring`: of a joint along a row (`shoe[i]`, `shoe[i+1]`), the last part is joined to the first; such a ring is joined
     to nothing else and touches the machine only. `follows`: another joint leads it, and nothing drives it. `direction`:
     its axis as drawn. `positions`: name → where else than as drawn it may be held, metres or radians from there (a pin
-    in another hole); `at`: which is chosen, nothing moves on it then. `rest`: nothing drives it and a spring with its
-    stiffness, and a damper, are on it, which push nothing there (m or rad from the drawn pose; `AS_DRAWN`: they are
-    stretched so that the machine stands as drawn), under the choices of `rest_when`. `documents`: the file name of the
-    user's document that says what it joins (`joint`) or its limits (`limit`).
+    in another hole), or `share_of` a specification; `at`: which is chosen, nothing moves on it then. `rest`: nothing
+    drives it and a spring with its stiffness, and a damper, are on it, which push nothing there (m or rad from the
+    drawn pose; `AS_DRAWN`: they are stretched so that the machine stands as drawn), under the choices of `rest_when`.
+    `documents`: the file name of the user's document that says what it joins (`joint`) or its limits (`limit`).
     """
 
     name: str
@@ -110,8 +110,8 @@ class JointTemplate:
     ring: bool = False
     follows: Follows | None = None
     direction: Direction | None = None
-    positions: Mapping[str, float] = field(default_factory=dict, hash=False)
-    at: float | None = None
+    positions: Mapping[str, float | str] = field(default_factory=dict, hash=False)
+    at: float | str | None = None
     rest: float | str | None = None
     rest_when: Choices = field(default_factory=dict)
 

@@ -43,6 +43,7 @@ if TYPE_CHECKING:
         ChartLoad,
         chart_stability,
         chart_tests,
+        chart_tipping,
         read_load_chart,
     )
     from yellowiron.simulation.payload import parse_payload, payload_over_strokes, rated_payload
@@ -63,6 +64,7 @@ __all__ = [
     "at_rates",
     "chart_stability",
     "chart_tests",
+    "chart_tipping",
     "drive",
     "driving_document",
     "examine",
@@ -92,6 +94,7 @@ __getattr__, __dir__ = lazy_names(
         "at_rates": "suite",
         "chart_stability": "machine_tests.load_chart",
         "chart_tests": "machine_tests.load_chart",
+        "chart_tipping": "machine_tests.load_chart",
         "drive": "driving.wheeled",
         "driving_document": "driving.result",
         "examine": "suite",

@@ -22,6 +22,8 @@ BODIES = {
     2: ["boom", "inner_boom"], 3: ["boom", "middle_boom", "inner_boom"],
     4: ["boom", "middle_boom", "second_middle_boom", "inner_boom"],
 }  # fmt: skip
+JIB = 1.6
+"""How far a jib reaches beyond the pin of the head's sheaves."""
 BEAM, BOX_WALL = (0.075, 0.09, 0.01), 0.012
 """Half width, half height and wall of an outrigger's beam; the wall of its box."""
 
@@ -31,8 +33,10 @@ class Crane(SteeredChassis):
 
     carrier = "carrier"
 
-    def __init__(self, seed: int, *, sections: int, twin: bool, hook: bool, embedded: bool) -> None:
-        self.sections, self.twin, self.hook = sections, twin, hook
+    def __init__(
+        self, seed: int, *, sections: int, twin: bool, hook: bool, pinned: bool, jib: bool, embedded: bool
+    ) -> None:
+        self.sections, self.twin, self.hook, self.pinned, self.jib = sections, twin, hook, pinned, jib
         super().__init__(seed, twin=True, steered=False, embedded=embedded, stop=False, hoses=0)
         u, s = self.rng.uniform, self.s
         self.m.title, self.t, self.e = "CRANE", 0.026 * s, 0.003 * s if embedded else 0.0
@@ -47,6 +51,8 @@ class Crane(SteeredChassis):
     def link_pins(self) -> None:
         u, s = self.rng.uniform, self.s
         self.boom, self.out = float(u(0.05, 1.15)), float(u(0.1, 0.9))
+        if self.pinned:
+            self.out = 0.0
         self.pivot, self.axis = np.array([-1.5, 1.75]) * u(0.97, 1.03, 2), 0.36
         self.end = 4.4 * u(0.96, 1.04)
         self.long = self.end + 0.75 + (self.sections - 1) * (self.out + 0.12)
@@ -75,6 +81,8 @@ class Crane(SteeredChassis):
             group()
         if self.hook:
             self.hoist()
+        if self.jib:
+            self.draw_jib()
         return self.m
 
     def lugs(self, name: str, body: str, y: float, pin: str, *feet: Array) -> None:
@@ -225,13 +233,10 @@ class Crane(SteeredChassis):
         for y, letter in self.luffing_y:
             self.lugs("luffing rod lug", "boom", y, "D", *(self.on(along_d + d, low + e / s) for d in (-0.1, 0.1)))
             self.pin_across(f"luffing_piston_rod{letter}_pin", "boom", "D", y)
-        self.lugs("telescope lug", "boom", 0.0, "V", self.on(0.45, top - e / s), self.on(0.55, top - e / s))
-        self.pin_across("telescope_cylinder_barrel_pin", "boom", "V")
-        body, x = names[1], self.end + self.out
-        over = top - WALL - LOOSE - e / s
-        self.lugs("telescope rod lug", body, 0.0, "W", self.on(x + 0.01, over), self.on(x + 0.09, over))
-        role = "telescope_piston_rod_pin" if self.sections == 2 else "middle_telescope_piston_rod_pin"
-        self.pin_across(role, body, "W")
+        if self.pinned:
+            self.pinned_cylinder()
+        else:
+            self.coupled_feet(names[1], top)
         if not self.hook:
             return
         y, back = half * s + t / 2 - e, self.long - 0.5
@@ -241,6 +246,39 @@ class Crane(SteeredChassis):
         for side in (1, -1):
             self.side_plate("head", "inner_boom", side * y, head, "N")
         self.pin_across("hoist_rope_pin", "inner_boom", "N", half=y + t)
+
+    def pinned_cylinder(self) -> None:
+        """Inside: the barrel is fast on a block at the boom's foot, and the rod has been fetched back into it."""
+        s, e, m = self.s, self.e, self.m
+        inside, low, high = HALF - WALL + e / s, self.axis - HIGH + WALL - e / s, self.axis + HIGH - WALL + e / s
+        along, up = polar(1.0, self.boom), polar(1.0, self.boom + math.pi / 2)
+        way = np.array([along[0], 0.0, along[1]])
+        block = box("telescope_foot", 0.05 * s, 2 * inside * s, (high - low) * s)
+        at = self.on(0.14, low)
+        m.add("telescope foot", "boom", "boom", block, place((at[0], 0, at[1]), (up[0], 0, up[1]), way))
+        start, bore, rod, long = self.on(0.165, self.axis), 0.034 * s, 0.02 * s, 0.6 * self.end * s
+        can = [(0.0, 0.0), (1.2 * bore, 0.0), (1.2 * bore, long), (rod, long), (rod, long - 0.05 * s),
+               (bore, long - 0.05 * s), (bore, 0.04 * s), (0.0, 0.04 * s)]  # fmt: skip
+        foot = np.array([start[0], 0.0, start[1]])
+        m.add("telescope barrel", "telescope_cylinder", "boom", lathe("telescope_can", can),
+              place(foot - e * way, way))  # fmt: skip
+        bar = merged(
+            "telescope_rod",
+            (tube("telescope_bar", rod, 0.0, long), place(0.05 * s * Z, Z)),
+            (tube("telescope_piston", bore, rod, 0.05 * s), place(0.05 * s * Z, Z)),
+        )
+        m.add("telescope rod", "telescope_cylinder", "boom", bar, place(foot, way))
+
+    def coupled_feet(self, body: str, top: float) -> None:
+        """Lugs of the telescoping cylinder, on the outermost section and on the next."""
+        e = self.e / self.s
+        self.lugs("telescope lug", "boom", 0.0, "V", self.on(0.45, top - e), self.on(0.55, top - e))
+        self.pin_across("telescope_cylinder_barrel_pin", "boom", "V")
+        x = self.end + self.out
+        over = top - WALL - LOOSE - e
+        self.lugs("telescope rod lug", body, 0.0, "W", self.on(x + 0.01, over), self.on(x + 0.09, over))
+        role = "telescope_piston_rod_pin" if self.sections == 2 else "middle_telescope_piston_rod_pin"
+        self.pin_across(role, body, "W")
 
     def hoist(self) -> None:
         """Rope and sheaves in one, and the hook block that it runs into."""
@@ -273,6 +311,25 @@ class Crane(SteeredChassis):
         shank = tube("hook", 0.03 * s, 0.0, 0.2 * s)
         m.add("hook", body, body, shank, place((n[0], 0, n[1] - drop - 0.4 * s + e), Z))
 
+    def draw_jib(self) -> None:
+        """Two long plates about brackets beside the boom's head, in line with it, with ties between them."""
+        s, t, e, m, half = self.s, self.t, self.e, self.m, HALF - (self.sections - 1) * (WALL + LOOSE)
+        self.P["J"], end = self.on(self.long - 0.1, self.axis + 0.3), self.on(self.long + JIB, self.axis + 0.3)
+        wide, y = 2.0 * self.pin_r, half * s + t / 2 - e + t
+        bracket = around((*self.P["J"], wide), *((*self.on(x, self.axis + z), 0.0) for x, z in (
+            (self.long - 0.5, 0.08), (self.long - 0.38, -0.04),
+        )))  # fmt: skip
+        arm = around((*self.P["J"], wide), (*end, 0.5 * wide))
+        for side in (1, -1):
+            self.side_plate("jib bracket", "inner_boom", side * (y - e), bracket, "J")
+            self.side_plate("jib arm", "jib", side * (y + t + self.gap), arm, "J")
+        self.pin_across("jib_pin", "inner_boom", "J", half=y + 2.0 * t + self.gap)
+        along, up = polar(1.0, self.boom), polar(1.0, self.boom + math.pi / 2)
+        tie = box("jib_tie", 0.05 * s, 2.0 * (y + 0.5 * t + self.gap + e), 0.05 * s)
+        for x in (0.35, 0.7 * JIB, JIB - 0.03):
+            at = self.on(self.long + x, self.axis + 0.275)
+            m.add("jib tie", "jib", "jib", tie, place((at[0], 0, at[1]), (up[0], 0, up[1]), (along[0], 0, along[1])))
+
     def rams(self) -> None:
         s = self.s
 
@@ -283,18 +340,21 @@ class Crane(SteeredChassis):
         for y, letter in self.luffing_y:
             halves = f"luffing_cylinder_barrel{letter}", f"luffing_piston_rod{letter}"
             self.cylinder(f"luffing{letter}", *halves, flat("C", y), flat("D", y), Y, bore * s)
-        halves = "telescope_cylinder_barrel", "telescope_piston_rod"
-        self.cylinder("telescope", *halves, flat("V"), flat("W"), Y, 0.034 * s)
+        if not self.pinned:
+            halves = "telescope_cylinder_barrel", "telescope_piston_rod"
+            self.cylinder("telescope", *halves, flat("V"), flat("W"), Y, 0.034 * s)
 
 
 def crane(
     seed: int, *, sections: int | None = None, twin: bool | None = None, hook: bool | None = None,
-    embedded: bool = False,
+    pinned: bool = False, jib: bool = False, embedded: bool = False,
 ) -> Machine:  # fmt: skip
-    """The machine of a seed, in its own frame, in drawing order, with names; what is not stated is the seed's."""
+    """The machine of a seed, in its own frame, in drawing order, with names; what is not stated is the seed's.
+    `pinned`: all sections in, as one that a single cylinder inside draws out and pins is on the road; `jib`: one in
+    line with the boom, beside a head with a hook."""
     drawn = np.random.default_rng([seed, 59]).random(3)
     return Crane(
         seed, sections=int(2 + drawn[0] * 3) if sections is None else sections,
         twin=bool(drawn[1] < 0.4) if twin is None else twin, hook=bool(drawn[2] < 0.75) if hook is None else hook,
-        embedded=embedded,
+        pinned=pinned, jib=jib, embedded=embedded,
     ).draw()  # fmt: skip

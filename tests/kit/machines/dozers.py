@@ -23,6 +23,9 @@ from yellowiron.model.geometry import Shape, SphereFeature
 SIDES = ((1, "l"), (-1, "r"))
 BALL = 0.075
 """Radius of the ball that an angled blade turns on."""
+RIPPER = {"pivot": (-1.62, 0.75), "beam": (-2.3, 0.75), "foot": (-1.63, 1.5), "eye": (-2.05, 0.97),
+          "top": (-1.65, 1.22), "end": (-2.33, 1.25)}  # fmt: skip
+"""x and z of an adjustable parallelogram's pins, in machine sizes: the link's two, the lift and the tip cylinders'."""
 
 
 def raised(turn: float, about: Array) -> Array:
@@ -58,7 +61,7 @@ class Dozer(Digger):
     carrier = "main_frame"
 
     def __init__(
-        self, seed: int, *, arms: bool, dual: bool, wings: bool, high: bool, ripper: bool, embedded: bool
+        self, seed: int, *, arms: bool, dual: bool, wings: bool, high: bool, ripper: str, embedded: bool
     ) -> None:
         self.arms, self.dual, self.wings, self.high, self.ripper = arms, dual, wings, high, ripper
         super().__init__(seed, Features(), embedded=embedded)
@@ -190,8 +193,10 @@ class Dozer(Digger):
             self.push_arms()
         else:
             self.c_frame()
-        if self.ripper:
+        if self.ripper == "radial":
             self.radial_ripper()
+        elif self.ripper == "parallel":
+            self.parallel_ripper()
         return self.m
 
     def frame(self) -> None:
@@ -507,18 +512,69 @@ class Dozer(Digger):
             self.block("ripper shank", body, (-2.38, across - 0.04, 0.12), (-2.25 + e, across + 0.04, 0.95))
         m.pose = np.eye(4)
 
+    def parallel_ripper(self) -> None:
+        """A link under the tip cylinders, which are the parallelogram's upper side; the lift cylinders are between."""
+        s, e, main, body, link, m = self.s, self.e / self.s, self.carrier, "ripper_beam", "ripper_link", self.m
+        t, gap = self.t / s, self.gap / s
+        y_lift, y_tip = 0.16, 0.16 + 2 * self.lug_y + 0.075
+        y_arm = y_tip + self.lug_y + gap + t
+        at = RIPPER
+        self.block("ripper plate", main, (-1.56, -0.66, 0.4), (-1.5 + e, 0.66, 1.65))
+        for side, letter in SIDES:
+            for name, y, pin, span in (("lift", y_lift, at["foot"], 0.09), ("tip", y_tip, at["top"], 0.07)):
+                feet = ((-1.56 + e, pin[1] - span), (-1.56 + e, pin[1] + span))
+                self.lugs(f"ripper {name} lug", main, side * y, pin, *feet)
+                self.level_pin(f"ripper_{name}_cylinder_barrel_{letter}_pin", main, pin, side * y)
+            hinge = [(*at["pivot"], self.wide), (-1.56 + e, at["pivot"][1] - 0.09, 0),
+                     (-1.56 + e, at["pivot"][1] + 0.09, 0)]  # fmt: skip
+            self.wall("ripper hinge", main, side * y_arm, hinge, at["pivot"])
+            bar = [(*at["pivot"], self.wide), (*at["beam"], self.wide)]
+            self.wall("ripper link arm", link, side * (y_arm + t + gap), bar, at["pivot"], at["beam"])
+            for role, carrier, pin in (("ripper_link_pin", main, "pivot"), ("ripper_beam_pin", body, "beam")):
+                self.level_pin(role, carrier, at[pin], side * (y_arm + 0.5 * (t + gap)), 1.2 * t)
+            eye = at["eye"]
+            self.lugs("ripper lift rod lug", link, side * y_lift, eye, (eye[0] - 0.08, eye[1] - 0.1),
+                      (eye[0] + 0.08, eye[1] - 0.1))  # fmt: skip
+            self.level_pin(f"ripper_lift_piston_rod_{letter}_link_pin", link, eye, side * y_lift)
+            end = at["end"]
+            self.wall("ripper carrier", body, side * y_arm, [(*at["beam"], self.wide), (end[0] - 0.1, end[1], 0),
+                      (end[0] - 0.1, at["beam"][1] - 0.1, 0)], at["beam"])  # fmt: skip
+            self.lugs("ripper tip rod lug", body, side * y_tip, end, (end[0] - 0.1, end[1] - 0.07),
+                      (end[0] - 0.1, end[1] + 0.07))  # fmt: skip
+            self.level_pin(f"ripper_tip_piston_rod_{letter}_pin", body, end, side * y_tip)
+            for name, y, one, other in (("lift", y_lift, "foot", "eye"), ("tip", y_tip, "top", "end")):
+                halves = (f"ripper_{name}_cylinder_barrel_{letter}", f"ripper_{name}_piston_rod_{letter}")
+                pins = (self.spot(at[pin][0], side * y, at[pin][1]) for pin in (one, other))
+                self.cylinder(f"ripper {name} {letter}", *halves, *pins, Y, 0.04 * s)
+        eye, wide = at["eye"], y_arm + 0.5 * t + gap + e
+        self.block(
+            "ripper link tube", link, (eye[0] - 0.1, -wide, eye[1] - 0.22), (eye[0] + 0.1, wide, eye[1] - 0.1 + e)
+        )
+        end, low = at["end"], at["beam"][1] - 0.1
+        wide = y_arm + 0.5 * t
+        self.block("ripper carrier box", body, (end[0] - 0.2, -wide, low), (end[0] - 0.1 + e, wide, end[1] + 0.09))
+        for k in range(int(self.rng.integers(1, 4))):
+            across = (0.0, 0.4, -0.4)[k]
+            self.block("ripper shank", body, (end[0] - 0.34, across - 0.04, 0.1),
+                       (end[0] - 0.2 + e, across + 0.04, 1.2))  # fmt: skip
+        m.pose = np.eye(4)
+
+
+def _ripper(said: bool | str) -> str:
+    return said if isinstance(said, str) else "radial" if said else ""
+
 
 def dozer(
     seed: int, blade: str | None = None, *, dual: bool | None = None, wings: bool | None = None,
-    high: bool | None = None, ripper: bool | None = None, embedded: bool = False,
+    high: bool | None = None, ripper: bool | str | None = None, embedded: bool = False,
 ) -> Machine:  # fmt: skip
     """The machine of a seed, in its own frame, in drawing order, with names; what is not stated is the seed's. `blade`:
-    `pat` (on a C-frame) or `push_arms`."""
+    `pat` (on a C-frame) or `push_arms`; `ripper`: `radial` (what a seed draws, and `True`), `parallel` or none."""
     drawn = np.random.default_rng([seed, 61]).random(5)
     arms = bool(drawn[0] < 0.5) if blade is None else blade == "push_arms"
     return Dozer(
         seed, arms=arms, dual=bool(drawn[1] < 0.4) if dual is None else dual,
         wings=bool(drawn[2] < 0.5) and arms if wings is None else wings,
         high=bool(drawn[3] < 0.4) if high is None else high,
-        ripper=bool(drawn[4] < 0.3) if ripper is None else ripper, embedded=embedded,
+        ripper=_ripper(bool(drawn[4] < 0.3) if ripper is None else ripper), embedded=embedded,
     ).draw()  # fmt: skip

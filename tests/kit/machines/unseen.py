@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from collections.abc import Mapping
 from dataclasses import replace
 
 from kit.machines.defects import on_triangles
@@ -12,13 +13,15 @@ from yellowiron.model.alignment import Alignment
 from yellowiron.model.specification import Specifications
 
 
-def found_whole(machine: Machine, equipment_type: str, seed: int, *, triangles: bool) -> Alignment:
+def found_whole(
+    machine: Machine, equipment_type: str, seed: int, *, triangles: bool, choices: Mapping[str, str] | None = None
+) -> Alignment:
     """Its alignment, every part in its body, nothing missing, the front ahead and up above (0.001 of a unit vector);
-    from surfaces or from triangles alone."""
+    from surfaces or from triangles alone, a person's `choices` made."""
     if triangles:
         machine = replace(machine, shapes=on_triangles(machine.shapes))
     assembly, truth, back = disguise(machine, seed)
-    found = align(assembly, library.load_template(equipment_type), Specifications())
+    found = align(assembly, library.load_template(equipment_type), Specifications(), choices=choices)
     wrong = [(truth[p.part], p.body) for p in found.parts if p.body != truth[p.part][1]]
     assert wrong == [] and not found.missing
     turned = found.frame[:3, :3] @ back[:3, :3].T

@@ -11,8 +11,10 @@ import numpy as np
 
 from yellowiron.exporters.assets import Assets, plain, unique
 from yellowiron.exporters.geometry import BodyGeometry, Collider, Geometry, read_geometry
-from yellowiron.exporters.mjcf import actuators, sensors
+from yellowiron.exporters.mjcf import actuators, ropes, sensors
 from yellowiron.exporters.mjcf.hardness import SOLIMP
+from yellowiron.exporters.mjcf.ropes import winch_of
+from yellowiron.exporters.ropes import Rope, with_ropes
 from yellowiron.exporters.shapes import ConvexPieces, placed
 from yellowiron.exporters.tendons import Tendon, with_tendons
 from yellowiron.exporters.values import axes_of, minus, quaternion, row, srgb, text
@@ -53,20 +55,22 @@ def export_mjcf(
     where all coordinates and controls are 0; controls are an actuator's coordinate: metres of its driven slide, rad/s
     of a motor. The machine does not collide with itself: give `conaffinity="1"` to its `collision` class to change
     that; bodies that are jointed or overlap as drawn are excluded all the same. Of a geometry in light
-    detail the colliders are what is seen, too. With `cylinders` as tendons their halves are no bodies (`with_tendons`);
-    controls are what they are without.
+    detail the colliders are what is seen, too. With `cylinders` as tendons their halves are no bodies (`with_tendons`),
+    and hooks hang on ropes that pull and do not push (`with_ropes`); controls are what they are without.
 
     Raises `MechanismError` where the joints are no tree with cuts.
     """
     shapes = read_geometry(geometry)
     tendons: tuple[Tendon, ...] = ()
+    hung: tuple[Rope, ...] = ()
     if cylinders == "tendons":
+        mechanism, hung = with_ropes(mechanism)
         mechanism, tendons = with_tendons(mechanism)
         left = {body.name for body in mechanism.bodies}
         shapes = replace(shapes, filtered=tuple(pair for pair in shapes.filtered if left.issuperset(pair)))
     folder.mkdir(parents=True, exist_ok=True)
     name = unique(plain(mechanism.name), {"scene", "lidar"})
-    document = _Document(mechanism, shapes, Assets(folder / ASSETS), base, timestep, tendons)
+    document = _Document(mechanism, shapes, Assets(folder / ASSETS), base, timestep, tendons, hung)
     _write(document.element(name), folder / f"{name}.xml")
     _write(_scene(mechanism, f"{name}.xml"), folder / "scene.xml")
     beams = sensors.section(mechanism, lidars=True)
@@ -78,14 +82,15 @@ def export_mjcf(
 
 
 def export_tendons(mechanism: Mechanism, geometry: Geometry | str | Path, folder: Path) -> Path:
-    """`export_mjcf` with cylinders as tendons."""
+    """`export_mjcf` with cylinders and ropes as tendons."""
     return export_mjcf(mechanism, geometry, folder, cylinders="tendons")
 
 
 def tendons_unsaid(mechanism: Mechanism) -> tuple[str, ...]:
     """What MJCF with tendons says in another way."""
-    reduced, tendons = with_tendons(mechanism)
-    gone = len(mechanism.bodies) - len(reduced.bodies)
+    roped, hung = with_ropes(mechanism)
+    reduced, tendons = with_tendons(roped)
+    gone = len(roped.bodies) - len(reduced.bodies)
     stays = [c.name for c in mechanism.cylinders if c.barrel in {b.name for b in reduced.bodies}]
     words = [
         f"{gone} halves of cylinders are no bodies: their mass is on their pins, and they touch nothing.",
@@ -94,6 +99,11 @@ def tendons_unsaid(mechanism: Mechanism) -> tuple[str, ...]:
     ]
     if stays:
         words.append(f"Cylinders that stay bodies: {', '.join(stays)}.")
+    words += [
+        f"'{rope.name}' is a tendon of {rope.falls} falls between '{rope.ends[0][0]}' and '{rope.ends[1][0]}', which "
+        f"is free but for it; '{winch_of(rope)}' is the winch, as light as its drive lets it be."
+        for rope in hung
+    ]
     return tuple(words)
 
 
@@ -108,9 +118,12 @@ class _Document:
         base: str,
         timestep: float,
         tendons: tuple[Tendon, ...],
+        hung: tuple[Rope, ...],
     ) -> None:
         self._mechanism = mechanism
         self._tendons = tendons
+        self._ropes = hung
+        self._commanded = replace(mechanism, joints=(*mechanism.joints, *(rope.slide for rope in hung)))
         self._geometry = geometry
         self._assets = assets
         self._base = base
@@ -121,8 +134,9 @@ class _Document:
         self._drawn_apart = geometry.detail != "light"
         self._order: list[Joint] = []
         self._drawn: list[float] = []
-        self._chained = chained(mechanism)
-        self._rolling = rolling(mechanism) if mechanism.floating else frozenset()
+        rings = replace(mechanism, floating=mechanism.floating[: len(mechanism.floating) - len(hung)])
+        self._chained = chained(rings)
+        self._rolling = rolling(mechanism) if rings.floating else frozenset()
         self._scrubbing = scrubbing(mechanism)
         self._children: dict[str, list[Joint]] = {}
         for joint in mechanism.joints:
@@ -143,10 +157,10 @@ class _Document:
         top.append(self._defaults())
         top.append(self._asset())
         top.append(world)
-        held = (self._contact(), self._equality(), self._tendon(), actuators.section(self._mechanism, self._tendons))
+        held = (self._contact(), self._equality(), self._tendon(), actuators.section(self._commanded, self._tendons))
         own = (
             actuators.brakes(self._mechanism),
-            sensors.section(self._mechanism, self._tendons),
+            sensors.section(self._commanded, self._tendons),
             self._keyframe(),
         )
         for section in (*held, *own):
@@ -239,6 +253,7 @@ class _Document:
                 if held == body.name:
                     place = row(minus(point, body.origin))
                     ET.SubElement(element, "site", name=f"{tendon.slide.name}.{number}", pos=place, group="4")
+        ropes.put(element, body, self._ropes)
         for following in self._children.get(body.name, ()):
             self._body(element, self._mechanism.body(following.body1), following)
 
@@ -357,6 +372,7 @@ class _Document:
             spatial = ET.SubElement(section, "spatial", {**values, "rgba": _BARE})
             for number in (0, 1):
                 ET.SubElement(spatial, "site", site=f"{slide.name}.{number}")
+        ropes.tendons(section, self._ropes)
         for joint in self._mechanism.joints:
             if joint.cut and joint.type == "distance":
                 ends = (joint.lower or 0.0, joint.upper if joint.upper is not None else _FAR)

@@ -134,6 +134,8 @@ class Bench:
             return self._straighten(actuator, state)
         if where == "drawn":
             target = 0.0
+        elif isinstance(where, str) and where not in ("min", "max"):
+            target = actuator.joints[0].sign * _number(where)
         else:
             low, high = self.range(name)
             share = {"min": 0.0, "max": 1.0}.get(str(where))

@@ -12,10 +12,10 @@ from yellowiron.library.linting.mobility import TemplateMobility, mobility, weld
 from yellowiron.library.linting.movement import connections, loose_joints, movement
 from yellowiron.model.finding import Finding
 from yellowiron.model.rows import expand, split_index
-from yellowiron.model.template import Template, choose, in_position
+from yellowiron.model.template import AS_DRAWN, Template, choose, holds, in_position
 from yellowiron.support.graphs import blocks
 
-MOST_COMBINATIONS = 512
+MOST_COMBINATIONS = 1024
 """Sets of choices that are looked at; a template with more says so."""
 _ORDER = ("error", "warning", "info")
 
@@ -87,8 +87,18 @@ def counts(template: Template) -> dict[str, int]:
 
 
 def _combinations(template: Template) -> Iterator[dict[str, str]]:
-    names = [v.name for v in template.variants]
-    for values in itertools.product(*(v.choices for v in template.variants)):
-        choices = dict(zip(names, values, strict=True))
-        if template.go_together(choices):
-            yield choices
+    """Every set of choices that goes together. Joints that are held in positions weld wherever they are: all of them as
+    drawn, all in their first position, and so on, not one by one."""
+    held = {joint.chosen_by: joint for joint in template.joints if joint.positions}
+    drawn = dict.fromkeys(held, AS_DRAWN)
+    others = [v for v in template.variants if v.name not in held]
+    for values in itertools.product(*(v.choices for v in others)):
+        choices = dict(zip((v.name for v in others), values, strict=True))
+        if not template.go_together({**choices, **drawn}):
+            continue
+        yield {**choices, **drawn}
+        there = {name: [*joint.positions] for name, joint in held.items() if holds(joint.when, choices)}
+        for number in range(max(map(len, there.values()), default=0)):
+            at = {name: places[min(number, len(places) - 1)] for name, places in there.items()}
+            if template.go_together({**choices, **drawn, **at}):
+                yield {**choices, **drawn, **at}

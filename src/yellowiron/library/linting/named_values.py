@@ -9,7 +9,7 @@ from yellowiron.library.notation.role_keys import EVERYTHING
 from yellowiron.library.notation.validated_json import near
 from yellowiron.library.parsing.joints import DIMENSION
 from yellowiron.model.finding import Finding
-from yellowiron.model.specification import fold
+from yellowiron.model.specification import fold, share_of
 from yellowiron.model.template import Template
 from yellowiron.support.text import with_article
 
@@ -32,10 +32,11 @@ def specifications(template: Template) -> Iterator[Finding]:
     known = {fold(w.name): w for w in template.wanted}
     said: set[str] = set()
     for joint in template.joints:
-        unlimited = joint.lower is None and joint.upper is None and joint.follows is None
+        unlimited = joint.lower is None and joint.upper is None and joint.follows is None and not joint.positions
         if joint.type == "prismatic" and unlimited:
             yield Finding("TPL010", "warning", joint.name, "The slide has no limits.", 'Give Limit ["0", "… Stroke"].')
-        for value in (joint.lower, joint.upper):
+        shares = (share[1] for place in joint.positions.values() if (share := share_of(place)) is not None)
+        for value in (joint.lower, joint.upper, *shares):
             if not isinstance(value, str):
                 continue
             name = value.lstrip("-").strip()

@@ -11,7 +11,7 @@ from yellowiron.library.notation.validated_json import Document, near
 from yellowiron.library.parsing.variants import choices_of
 from yellowiron.model.errors import TemplateError
 from yellowiron.model.rows import split_index
-from yellowiron.model.specification import fold
+from yellowiron.model.specification import fold, share_of
 from yellowiron.model.template import AS_DRAWN, Direction, DriveType, Follows, JointTemplate, JointType, Role, Variant
 
 DIMENSION: Mapping[str, str] = {
@@ -136,8 +136,8 @@ def _sprung(document: Document, joint: JointTemplate) -> JointTemplate:
     return replace(joint, free=True)
 
 
-def _positions(document: Document, name: str, entry: Mapping[str, Any], kind: str) -> dict[str, float]:
-    """Name → where a joint may be held, SI."""
+def _positions(document: Document, name: str, entry: Mapping[str, Any], kind: str) -> dict[str, float | str]:
+    """Name → where a joint may be held, SI, or what share of which specification."""
     if kind not in _COUPLED:
         raise TemplateError(
             f"Joint '{name}' is {kind} and has positions",
@@ -151,7 +151,10 @@ def _positions(document: Document, name: str, entry: Mapping[str, Any], kind: st
             hint="Name the others only.",
         )
     places = {each: document.at(name, "positions", each) for each in entry}
-    return {each: quantity(value, DIMENSION[kind], where=places[each]) for each, value in entry.items()}
+    return {
+        each: str(value) if share_of(value) is not None else quantity(value, DIMENSION[kind], where=places[each])
+        for each, value in entry.items()
+    }
 
 
 def positions_chosen(joints: Sequence[JointTemplate]) -> tuple[Variant, ...]:

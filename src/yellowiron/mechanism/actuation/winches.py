@@ -70,6 +70,16 @@ def winch_drives(
     return drives
 
 
+def winch_falls(template: Template, specifications: Specifications) -> dict[str, int]:
+    """How many lines of each winch's rope carry what it moves, by actuator; one where nothing says more."""
+    found = {}
+    for actuator in template.actuators:
+        if actuator.kind == WINCH:
+            falls = _value(actuator, "falls", specifications, [])
+            found[actuator.name] = max(1, round(falls.value)) if falls is not None else 1
+    return found
+
+
 @dataclass(frozen=True, eq=False)
 class _Raised:
     """What a winch raises: the `hinge`, the point that `end`s its boom's line, where the slide's two bodies are pinned

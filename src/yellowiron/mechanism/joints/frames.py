@@ -66,6 +66,7 @@ def joint_frames(
     findings: list[Finding] = []
     pivots: dict[str, JointFrame] = {}
     slides: list[tuple[JointTemplate, tuple[str, str]]] = []
+    held: list[tuple[JointTemplate, tuple[str, str]]] = []
     made = {r.name for r in template.roles if r.hidden}
     for joint in template.joints:
         if made & set(joint.parts):
@@ -77,15 +78,25 @@ def joint_frames(
             continue
         if joint.type == "prismatic":
             slides.append((joint, bodies))
-        elif joint.type == "fixed":
+        elif joint.type == "fixed" and joint.at is None:
             pivots[joint.name] = weld(joint, bodies, placement, method="weld")
+        elif joint.type == "fixed" and not any(template.role(part).kind == "pin" for part in joint.parts):
+            held.append((joint, bodies))
         elif joint.name in placement.by_hand:
             line = Axis(*placement.axes[joint.name])
             bearing = given_bearing(placement, joint)
             pivots[joint.name] = _frame(joint, bodies, placement, bearing, line.point, machine_sense(line.direction))
-        elif (frame := _pivot(joint, bodies, placement, template, findings)) is not None:
+        elif (
+            frame := _pivot(joint, bodies, placement, template, [] if joint.type == "fixed" else findings)
+        ) is not None:
             pivots[joint.name] = frame
+        elif joint.type == "fixed":
+            pivots[joint.name] = weld(joint, bodies, placement, method="weld")
     found = dict(pivots)
+    for joint, bodies in held:
+        # Nothing moves on it where it is held, and still it says which way its bodies point.
+        frame = _slide(joint, bodies, placement, template, pivots, [])
+        found[joint.name] = frame or weld(joint, bodies, placement, method="weld")
     for joint, bodies in slides:
         if (frame := _slide(joint, bodies, placement, template, pivots, findings)) is not None:
             found[joint.name] = frame

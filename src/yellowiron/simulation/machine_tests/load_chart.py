@@ -78,6 +78,20 @@ def chart_stability(
     return tuple(_stability(mechanism, row, slewed) for row in chart)
 
 
+def chart_tipping(usd_path: str | Path, chart: Iterable[ChartLoad], *, slewed: float = 0.0) -> tuple[MachineTest, ...]:
+    """For `run_tests`: at each row of the chart a load grows under the boom's head until the machine tips, on the
+    ground, `slewed` radians to the left of how it is drawn. What tips it does not have the hook in it. Errors as of
+    `chart_stability`."""
+    mechanism = attached(usd.read_mechanism(usd_path))
+    return tuple(
+        MachineTest(
+            f"Tipping at {row.radius:g} m, boom {row.boom_length:g} m, {math.degrees(slewed):g}°", "tipping",
+            steps=_steps(mechanism, row, slewed), site=HEAD,
+        )
+        for row in chart
+    )  # fmt: skip
+
+
 def chart_tests(usd_path: str | Path, chart: Iterable[ChartLoad]) -> tuple[MachineTest, ...]:
     """For `run_tests`: each load of the chart is hauled in by the winch at its radius, on the ground.
     `YellowironError` for a machine whose rated load is not known, or that is no crane."""
@@ -102,11 +116,7 @@ def _stability(mechanism: Mechanism, row: ChartLoad, slewed: float) -> ChartFigu
     if why := _other_boom(bench, row):
         return ChartFigure(row, None, why)
     try:
-        state = bench.pose(_steps(mechanism, row))
-        if slewed:
-            joint = mechanism.joint(_slewing(mechanism) or "")
-            turned = bench.chain.coordinate(state, joint.name) + slewed * math.copysign(1.0, joint.axis[2])
-            state, _ = bench.chain.reach({joint.name: turned}, start=state)
+        state = bench.pose(_steps(mechanism, row, slewed))
         head = place(bench.chain, state, site)
         force = tipping_force(mechanism, bench.chain, state, head, np.array([0.0, 0.0, -1.0]))
     except Unmeasurable as why:
@@ -118,8 +128,8 @@ def _slewing(mechanism: Mechanism) -> str | None:
     return next((a.joints[0].joint for a in mechanism.actuators if a.name == SLEW), None)
 
 
-def _steps(mechanism: Mechanism, row: ChartLoad) -> tuple[Mapping[str, Any], ...]:
-    """The pose at a boom's length and a radius, as a measurement's steps."""
+def _steps(mechanism: Mechanism, row: ChartLoad, slewed: float = 0.0) -> tuple[Mapping[str, Any], ...]:
+    """The pose at a boom's length and a radius, slewed so far to the left, as a measurement's steps."""
     joint = _slewing(mechanism)
     actuators, sites = {a.name for a in mechanism.actuators}, {s.name for s in mechanism.sites}
     if joint is None or not {"luffing", "hoist"} <= actuators or not {FOOT, HEAD} <= sites:
@@ -131,9 +141,10 @@ def _steps(mechanism: Mechanism, row: ChartLoad) -> tuple[Mapping[str, Any], ...
     length = {"kind": "distance", "sites": [FOOT, HEAD]}
     radius = {"kind": "radius", "joint": joint, "site": HEAD}
     luffed = {"solve": [{"actuator": "luffing", "quantity": radius, "value": row.radius}]}
+    turned: tuple[Mapping[str, Any], ...] = ({"set": {SLEW: f"{slewed!r} rad"}},) if slewed else ()
     if "telescope" not in actuators:
-        return (luffed,)
-    return ({"solve": [{"actuator": "telescope", "quantity": length, "value": row.boom_length}]}, luffed)
+        return (luffed, *turned)
+    return ({"solve": [{"actuator": "telescope", "quantity": length, "value": row.boom_length}]}, luffed, *turned)
 
 
 def _other_boom(bench: Bench, row: ChartLoad) -> str:

@@ -24,6 +24,8 @@ SETTLE = 1.0
 _LOCKED = 4.0
 """Stiffness of a locked cylinder by its drive's. Its damping stays: times the step it must not come near the mass that
 the cylinder moves, and an empty bucket is a tenth of what the drive was sized for."""
+_TURNED = math.radians(0.1)
+"""How near a slewing body is brought to where it should be."""
 _HELD = 1e9
 """N or N·m: what a locked cylinder bears. Oil shut in by its valves is not let out at the pump's relief pressure."""
 
@@ -58,7 +60,9 @@ class Rig:
         new: dict[str, Joint] = {joint.name: joint for joint in changed}
         self.mechanism = replace(mechanism, joints=tuple(new.get(j.name, j) for j in mechanism.joints))
         self.chain = ClosedChain(self.mechanism)
-        self.moves: tuple[Motion, ...] = tuple(m for m in motions(self.mechanism) if m.position)
+        every = motions(self.mechanism)
+        self.moves: tuple[Motion, ...] = tuple(m for m in every if m.position)
+        self._turns = tuple(m for m in every if not (m.position or m.drives))
         self.timestep = timestep
         self.engine = load_engine(
             engine,
@@ -86,7 +90,8 @@ class Rig:
 
     # ---- moving -----------------------------------------------------------------------------------------------------
     def pose(self, state: State) -> None:
-        """Rests, brings every cylinder to where it is in a state, at its own pace, and rests again."""
+        """Rests, brings every cylinder to where it is in a state, at its own pace, then what motors turn and the
+        machine does not drive on (a slewing body), and rests again."""
         ends = {m.joint: self.chain.coordinate(state, m.joint) for m in self.moves}
         pace = paces(self.chain, self.moves)
         rest = np.zeros(self.steps(SETTLE))
@@ -98,6 +103,25 @@ class Rig:
         told = carried(self.chain, self.moves, targets, self.timestep)
         for number in range(len(rest) + longest):
             self.step({joint: float(values[number]) for joint, values in told.items()})
+        held = {joint: float(values[-1]) for joint, values in told.items()}
+        for turn in self._turns:
+            if abs(self.chain.coordinate(state, turn.joint)) > _TURNED:
+                self._turn(turn, state, held)
+
+    def _turn(self, turn: Motion, state: State, held: Mapping[str, float]) -> None:
+        """A motor runs until its joint is where it is in a state, no faster than half of its torque can stop it."""
+        end, drive = self.chain.coordinate(state, turn.joint), self.mechanism.joint(turn.joint).drive
+        torque = drive.max_force if drive is not None else math.inf
+        limit = min(turn.speed / SETTLE, 0.5 * torque / self.chain.effective_mass(state, turn.joint))
+        way, speed = end - self.coordinate(turn.joint), 0.0
+        patience = self.steps(4.0 * (abs(way) / turn.speed + turn.speed / limit) + SETTLE)
+        while abs(way) > _TURNED and patience > 0:
+            most = min(turn.speed, abs(speed) + limit * self.timestep, math.sqrt(limit * abs(way)), abs(way) / SETTLE)
+            speed = math.copysign(most, way)
+            self.step({**held, turn.joint: speed})
+            way, patience = end - self.coordinate(turn.joint), patience - 1
+        for _ in range(self.steps(SETTLE) if speed else 0):
+            self.step({**held, turn.joint: 0.0})
 
     def step(self, targets: Mapping[str, float]) -> None:
         """New targets, within their joints' limits, and one step."""

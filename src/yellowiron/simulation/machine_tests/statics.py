@@ -4,6 +4,7 @@ figure. SI; the ground is z = 0 of the machine frame."""
 from __future__ import annotations
 
 import math
+from collections.abc import Sequence
 
 import numpy as np
 from scipy.optimize import linprog
@@ -13,6 +14,9 @@ from yellowiron.kinematics.measuring.quantities import Unmeasurable, wheels
 from yellowiron.model.geometry import Floats
 from yellowiron.model.mechanism import GRAVITY, Mechanism, Site
 from yellowiron.simulation.ground import TOUCHING, standing_bodies
+
+_RIM = 0.98
+"""Of a wheel's radius: what is as far out is on its rim, of a ball in a band of two fifths of its width."""
 
 
 def place(chain: ClosedChain, state: State, site: Site, offset: float = 0.0) -> Floats:
@@ -75,8 +79,21 @@ def supports(mechanism: Mechanism, chain: ClosedChain, state: State) -> tuple[tu
         along = (hull - np.asarray(joint.anchor)) @ np.asarray(joint.axis)
         down = np.array([0.0, 0.0, -1.0]) + axis[2] * axis
         lowest = (pose @ anchor)[:3] + radius * down / np.linalg.norm(down)
-        found += [(name, lowest + share * axis) for share in (float(along.min()), float(along.max()))]
+        found += [
+            (name, lowest + share * axis)
+            for share in _edges(hull - np.asarray(joint.anchor), along, joint.axis, radius)
+        ]
     return tuple(found)
+
+
+def _edges(points: Floats, along: Floats, axis: Sequence[float], radius: float) -> tuple[float, ...]:
+    """Where along its axis a wheel of those points (n, 3), from its middle, bears: at both edges, or, of a ball (a
+    track's hidden wheel), under its middle."""
+    out = np.linalg.norm(points - along[:, None] * np.asarray(axis), axis=1)
+    round_ = along[out >= _RIM * radius]
+    if len(round_) and np.ptp(round_) < 0.5 * np.ptp(along):
+        return (float(0.5 * (round_.min() + round_.max())),)
+    return float(along.min()), float(along.max())
 
 
 def tipping_force(mechanism: Mechanism, chain: ClosedChain, state: State, point: Floats, direction: Floats) -> float:
