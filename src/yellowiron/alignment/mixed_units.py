@@ -9,7 +9,7 @@ large, it must be within a tenth of the machine about the origin.
 from __future__ import annotations
 
 import itertools
-from collections.abc import Mapping, Sequence
+from collections.abc import Collection, Mapping, Sequence
 from dataclasses import dataclass, field, replace
 
 import numpy as np
@@ -37,12 +37,18 @@ SURELY = 9.0
 """Enlarged by less than this, many a part stays inside the machine: it must fit twice."""
 BY_CHANCE = 20.0
 """… and from this on it is in the wrong place whatever it touches there."""
+AT_ALL = 100.0
+"""… and from this on nothing but that it touches several parts there need speak for it."""
 GIANT = 1.5
 """What is so many times as large as all the rest together is out of scale."""
 PLAIN = 12
 """Boxes are like each other by chance."""
 ALIKE = 2e-3
 """Two surfaces are of one shape if they are equal within this share."""
+PROUD = 0.5
+"""A part may stand out from the box around all others by this share of their size."""
+UNDER = 0.01
+"""What would have the middle of no part this share of the machine's size under it would still be its ground."""
 CLOSE = 0.01
 """Faces lie on each other within this share of a small part's size, too."""
 ROUNDS = 3
@@ -81,17 +87,19 @@ def in_one_unit(assembly: Assembly) -> tuple[Assembly, OtherUnits]:
     guesses = {i: g for i in range(len(parts)) if (g := boxes.guesses(i, parts[i].transform[:3, 3]))}
     if not guesses and boxes.core.all():
         return assembly, OtherUnits()
+    suspects = {parts[i].id for i, some in guesses.items() if any(g.ratio >= SURELY and not g.own for g in some)}
     mended: dict[str, tuple[float, str]] = {}
     for _ in range(ROUNDS):
         rest = _Rest(assembly, [p.id for k, p in enumerate(parts) if boxes.core[k] or p.id in mended], boxes.size)
         found = {}
         for i in (i for i in guesses if parts[i].id not in mended):
-            best = rest.best(assembly.part(parts[i].id), guesses[i], out=boxes.out(i))
+            best = rest.best(assembly.part(parts[i].id), guesses[i], out=boxes.out(i), suspects=suspects)
             if best is not None:
                 found[parts[i].id] = best
         if not found:
             break
         assembly = _mended(assembly, {part: guess for part, (guess, _) in found.items()})
+        suspects -= found.keys()
         mended |= {part: (guess.ratio, words) for part, (guess, words) in found.items()}
     if len(mended) > MOST * len(parts):
         return assembly, OtherUnits()
@@ -133,17 +141,16 @@ class _Boxes:
     def __init__(self, points: Sequence[Floats]) -> None:
         self.low = np.array([p.min(axis=0) for p in points])
         self.high = np.array([p.max(axis=0) for p in points])
+        self._diagonals = np.linalg.norm(self.high - self.low, axis=1)
         self.core = _core(self.low, self.high)
-        self._grounds = set(grounds_of(points))
+        self._grounds = {k: _lying(points[k]) for k in grounds_of(points)}
         self._lowest = np.sort(self.low[self.core], axis=0)[:2]
         self._highest = np.sort(self.high[self.core], axis=0)[-2:]
         self.size = _diagonal(self.low[self.core], self.high[self.core])
 
     def guesses(self, i: int, origin: Floats) -> list[_Guess]:
         """In which units a part would be inside the machine; `origin` (3,) is its node's."""
-        if i in self._grounds:
-            return []
-        slack = FAR * self.size
+        slack = PROUD * self.size
         low, high = self._without(i)
         low, high = low - slack, high + slack
         diagonal = float(np.linalg.norm(self.high[i] - self.low[i]))
@@ -151,14 +158,23 @@ class _Boxes:
         for ratio, own in itertools.product(RATIOS, (False, True) if origin.any() else (False,)):
             about = origin if own else np.zeros(3)
             within = (about + ratio * (self.low[i] - about) >= low).all()
+            within = within and self._amid(i, about, ratio)
             within = within and (about + ratio * (self.high[i] - about) <= high).all()
             if within and ratio * diagonal > SMALL * self.size and (ratio > 1.0 or self.out(i)):
                 found.append(_Guess(ratio, own))
         return found
 
+    def _amid(self, i: int, about: Floats, ratio: float) -> bool:
+        """Whether what lies under the machine would be in it, enlarged so about a point."""
+        if i not in self._grounds:
+            return True
+        middle, normal = self._grounds[i]
+        centres = 0.5 * (self.low[self.core] + self.high[self.core]) - (about + ratio * (middle - about))
+        return bool(min((centres @ normal).max(), -(centres @ normal).min()) > UNDER * self.size)
+
     def out(self, i: int) -> bool:
         """True for what can be no part of the machine as it stands: as large as all the rest, or far from it."""
-        if self._giant(i):
+        if self._giant(i) or not self.core[i]:
             return True
         rest = self.core.copy()
         rest[i] = False
@@ -179,6 +195,12 @@ class _Boxes:
         low = np.where(self._lowest[0] < self.low[i], self._lowest[0], self._lowest[1 if self.core[i] else 0])
         high = np.where(self._highest[1] > self.high[i], self._highest[1], self._highest[0 if self.core[i] else 1])
         return low, high
+
+
+def _lying(points: Floats) -> tuple[Floats, Floats]:
+    """(3,) the middle of points, (n, 3), and the direction in which they are thinnest."""
+    middle = points.mean(axis=0)
+    return middle, np.linalg.eigh((points - middle).T @ (points - middle))[1][:, 0]
 
 
 def _diagonal(low: Floats, high: Floats) -> float:
@@ -220,30 +242,37 @@ class _Rest:
         self._directions = np.array([c.direction for _, c in self._round]).reshape(-1, 3)
         self._radii = np.array([c.radius for _, c in self._round])
 
-    def best(self, part: Part, guesses: Sequence[_Guess], *, out: bool) -> tuple[_Guess, str] | None:
-        """The unit that a part is in, and in words why; None if it is sound, or nothing tells."""
+    def best(
+        self, part: Part, guesses: Sequence[_Guess], *, out: bool, suspects: Collection[str]
+    ) -> tuple[_Guess, str] | None:
+        """The unit that a part is in, and in words why; None if it is sound, or nothing tells. `suspects`: ids of parts
+        that may be in another unit themselves."""
         now = self._solid(part, self._assembly.shapes)
         twins = {guess: self._twin(now, guess.ratio) for guess in guesses}
         # About its own origin a part stays where it is, whatever it is enlarged by: only what it is like tells.
         guesses = [g for g in guesses if twins[g] or out or not g.own]
-        if not guesses or (not out and self._fitting(now)):
+        sound = ~np.isin(self._ids, sorted(suspects))
+        if not guesses or (not out and any(sound[k] for k in self._fitting(now))):
             return None
-        if not out and self._touching(now):
+        floats = out or not any(sound[k] for k in self._touched(now))
+        if not floats:
             guesses = [g for g in guesses if g.ratio >= BY_CHANCE and not g.own]
-        ranked: list[tuple[int, _Guess, str]] = []
+        ranked: list[tuple[int, int, _Guess, str]] = []
         for guess in guesses:
             solid, twin = self._solid(*_enlarged(part, self._assembly, guess)), twins[guess]
-            far = max(guess.ratio, 1.0 / guess.ratio) >= SURELY
-            needed = 1 if far and (out or not guess.own) else 3
-            fitting = len(self._fitting(solid))
-            if fitting + 2 * bool(twin) >= needed and self._touching(solid):
-                words = f"{guess.ratio:.6g} times as large about {_ABOUT[guess.own]} origin it "
-                words += f"fits {fitting} parts" if not twin else f"is like {twin} and fits {fitting} parts"
-                ranked.append((fitting + 2 * bool(twin), guess, words))
-        ranked.sort(key=lambda item: -item[0])
-        if not ranked or (len(ranked) > 1 and ranked[1][0] == ranked[0][0]):
+            times = max(guess.ratio, 1.0 / guess.ratio) if out or not guess.own else 1.0
+            needed = 1 + (times < BY_CHANCE) + (times < SURELY)
+            fitting, touched = len(self._fitting(solid)), len(self._touched(solid))
+            words = f"{guess.ratio:.6g} times as large about {_ABOUT[guess.own]} origin it "
+            if fitting + 2 * bool(twin) >= needed and (touched or (twin and times >= SURELY)):
+                words += f"is like {twin} and fits {fitting} parts" if twin else f"fits {fitting} parts"
+                ranked.append((1, touched + fitting + 2 * bool(twin), guess, words))
+            elif touched > 1 and times >= (BY_CHANCE if floats else AT_ALL):
+                ranked.append((0, touched, guess, f"{words}touches {touched} parts"))
+        ranked.sort(key=lambda item: (-item[0], -item[1]))
+        if not ranked or (len(ranked) > 1 and ranked[1][:2] == ranked[0][:2]):
             return None
-        return ranked[0][1], ranked[0][2]
+        return ranked[0][2], ranked[0][3]
 
     def _solid(self, part: Part, shapes: Mapping[str, Shape]) -> Solid:
         return solids_of(replace(self._assembly, parts=(part,), shapes=shapes))[0]
@@ -255,9 +284,10 @@ class _Rest:
             (self._low <= high).all(axis=1) & (self._high >= low).all(axis=1) & (self._ids != solid.part.id)
         )
 
-    def _touching(self, solid: Solid) -> bool:
+    def _touched(self, solid: Solid) -> list[int]:
+        """The parts of the machine that a part touches."""
         touch = Touch((*self._solids, replace(solid, index=len(self._solids))), self._tolerance)
-        return any(touch.touching(k, len(self._solids)) for k in np.flatnonzero(self._near(solid)).tolist())
+        return [k for k in np.flatnonzero(self._near(solid)).tolist() if touch.touching(k, len(self._solids))]
 
     def _fitting(self, solid: Solid) -> set[int]:
         """The parts of the machine on whose flat or round faces a part's lie."""
@@ -266,7 +296,10 @@ class _Rest:
         for point, normal in zip(solid.plane_points, solid.plane_normals, strict=True):
             facing = (self._normals @ normal < -FACING) & near[self._planes]
             on = np.abs((self._points - point) @ normal) <= tolerance
-            found |= set(self._planes[facing & on].tolist())
+            # One face's middle is before the other part, at least.
+            beside = ((point >= self._low - tolerance) & (point <= self._high + tolerance)).all(axis=1)[self._planes]
+            beside |= ((self._points >= solid.low - tolerance) & (self._points <= solid.high + tolerance)).all(axis=1)
+            found |= set(self._planes[facing & on & beside].tolist())
         for c in solid.cylinders if len(self._radii) else ():
             delta = self._centres - c.center
             along = np.abs(self._directions @ c.direction) >= PARALLEL
