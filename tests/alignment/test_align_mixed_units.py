@@ -102,6 +102,12 @@ def test_what_no_unit_explains_is_for_review(machine: Machine, sound: Assembly) 
     assert part in found.to_review
 
 
+def test_of_half_the_parts_nobody_knows(sound: Assembly) -> None:
+    spoiled = written(sound, [p.id for p in sound.parts[::2]], 1e-3)
+    model, units = in_one_unit(spoiled)
+    assert model is spoiled and not units.mended
+
+
 def test_doubt_of_round_faces_is_scaled_with_them(sound: Assembly) -> None:
     """By how much a coarse cylinder may be off is a length, too."""
     shape = next(s for s in sound.shapes.values() if s.cylinders)

@@ -89,6 +89,7 @@ def in_one_unit(assembly: Assembly) -> tuple[Assembly, OtherUnits]:
         return assembly, OtherUnits()
     suspects = {parts[i].id for i, some in guesses.items() if any(g.ratio >= SURELY and not g.own for g in some)}
     mended: dict[str, tuple[float, str]] = {}
+    drawn = assembly
     for _ in range(ROUNDS):
         rest = _Rest(assembly, [p.id for k, p in enumerate(parts) if boxes.core[k] or p.id in mended], boxes.size)
         found = {}
@@ -102,7 +103,7 @@ def in_one_unit(assembly: Assembly) -> tuple[Assembly, OtherUnits]:
         suspects -= found.keys()
         mended |= {part: (guess.ratio, words) for part, (guess, words) in found.items()}
     if len(mended) > MOST * len(parts):
-        return assembly, OtherUnits()
+        return drawn, OtherUnits()
     lost = tuple(p.id for k, p in enumerate(parts) if boxes.lost(k) and p.id not in mended)
     return assembly, OtherUnits(mended, lost)
 
