@@ -9,7 +9,7 @@ large, it must be within a tenth of the machine about the origin.
 from __future__ import annotations
 
 import itertools
-from collections.abc import Collection, Mapping, Sequence
+from collections.abc import Collection, Iterator, Mapping, Sequence
 from dataclasses import dataclass, field, replace
 
 import numpy as np
@@ -263,9 +263,13 @@ class _Rest:
             solid, twin = self._solid(*_enlarged(part, self._assembly, guess)), twins[guess]
             times = max(guess.ratio, 1.0 / guess.ratio) if out or not guess.own else 1.0
             needed = 1 + (times < BY_CHANCE) + (times < SURELY)
-            fitting, touched = len(self._fitting(solid)), len(self._touched(solid))
+            fitting = len(self._fitting(solid))
+            fits = fitting + 2 * bool(twin) >= needed
+            if not fits and times < (BY_CHANCE if floats else AT_ALL):
+                continue
+            touched = sum(1 for _ in self._touched(solid))
             words = f"{guess.ratio:.6g} times as large about {_ABOUT[guess.own]} origin it "
-            if fitting + 2 * bool(twin) >= needed and (touched or (twin and times >= SURELY)):
+            if fits and (touched or (twin and times >= SURELY)):
                 words += f"is like {twin} and fits {fitting} parts" if twin else f"fits {fitting} parts"
                 ranked.append((1, touched + fitting + 2 * bool(twin), guess, words))
             elif touched > 1 and times >= (BY_CHANCE if floats else AT_ALL):
@@ -285,10 +289,10 @@ class _Rest:
             (self._low <= high).all(axis=1) & (self._high >= low).all(axis=1) & (self._ids != solid.part.id)
         )
 
-    def _touched(self, solid: Solid) -> list[int]:
+    def _touched(self, solid: Solid) -> Iterator[int]:
         """The parts of the machine that a part touches."""
         touch = Touch((*self._solids, replace(solid, index=len(self._solids))), self._tolerance)
-        return [k for k in np.flatnonzero(self._near(solid)).tolist() if touch.touching(k, len(self._solids))]
+        return (k for k in np.flatnonzero(self._near(solid)).tolist() if touch.touching(k, len(self._solids)))
 
     def _fitting(self, solid: Solid) -> set[int]:
         """The parts of the machine on whose flat or round faces a part's lie."""
