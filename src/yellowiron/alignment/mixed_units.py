@@ -250,8 +250,8 @@ class _Rest:
         that may be in another unit themselves."""
         now = self._solid(part, self._assembly.shapes)
         twins = {guess: self._twin(now, guess.ratio) for guess in guesses}
-        # About its own origin a part stays where it is, whatever it is enlarged by: only what it is like tells.
-        guesses = [g for g in guesses if twins[g] or out or not g.own]
+        # About its own origin, or enlarged a little, a part stays in the machine: only what it is like tells.
+        guesses = [g for g in guesses if twins[g] or out or (g.ratio >= SURELY and not g.own)]
         sound = ~np.isin(self._ids, sorted(suspects))
         if not guesses or (not out and any(sound[k] for k in self._fitting(now))):
             return None
