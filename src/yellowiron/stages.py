@@ -14,9 +14,11 @@ from yellowiron.alignment import (
     as_said,
     decide,
     declared_roles,
+    in_one_unit,
     of_drawn,
     parts_in,
     read_alignment,
+    reviewed,
     said_in,
     to_scale,
     twin_role,
@@ -101,7 +103,25 @@ def find_roles(
     other meshes taken out, where that finds a barrel and a rod that were missing; where bodies are missing, or every
     mesh may be a whole one, taken apart, if that finds a limb, two wheels, or most of what is missing. `earlier` is an
     alignment file whose edits hold, and whose parts are the model's as long as a person decides on them; `decisions` go
-    before them."""
+    before them. Parts in another unit than the rest are put in its unit first, and are for review."""
+    assembly, units = in_one_unit(assembly)
+    model, best = _roles_in_one_unit(
+        assembly, template, specifications, earlier=earlier, data=data, choices=choices, decisions=decisions
+    )
+    return model, reviewed(best, model, units)
+
+
+def _roles_in_one_unit(
+    assembly: Assembly,
+    template: Template,
+    specifications: Specifications,
+    *,
+    earlier: Path | None,
+    data: library.Documents | None,
+    choices: Mapping[str, str] | None,
+    decisions: Decisions,
+) -> tuple[Assembly, Alignment]:
+    """`find_roles` of a model whose parts are in one unit."""
 
     def found(model: Assembly) -> Alignment:
         edits = read_alignment(earlier, model, template) if earlier is not None else None

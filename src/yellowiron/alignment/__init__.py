@@ -12,7 +12,7 @@ under another choice of a variant · `ALN006` a hydraulic cylinder is not drawn 
 `ALN007` no body is left for parts that could move · `ALN008` a cylinder is to one side · `ALN009` parts stand apart and
 are left out · `ALN010` there seems to be more than one machine · `ALN011` the wheels have no tyres · `ALN016` a joint's
 axis is estimated · `ALN026` to `ALN028`: see `files.decisions` · `ALN029` one half is drawn ·
-`ALN032` a variant is in doubt.
+`ALN032` a variant is in doubt · `ALN033` parts in another unit.
 """
 
 from __future__ import annotations
@@ -41,6 +41,7 @@ if TYPE_CHECKING:
     from yellowiron.alignment.files.whole import ABSENT, parse_machine, whole
     from yellowiron.alignment.labelling.confidence import REVIEW
     from yellowiron.alignment.labelling.halves import of_drawn
+    from yellowiron.alignment.mixed_units import in_one_unit, reviewed
     from yellowiron.alignment.pipeline import align
 
 __all__ = [
@@ -54,6 +55,7 @@ __all__ = [
     "discover_declared",
     "explain",
     "fits",
+    "in_one_unit",
     "named_direction",
     "of_drawn",
     "parse_machine",
@@ -62,6 +64,7 @@ __all__ = [
     "read_alignment",
     "read_joints",
     "read_values",
+    "reviewed",
     "said_in",
     "to_scale",
     "twin_role",
@@ -82,6 +85,7 @@ __getattr__, __dir__ = lazy_names(
         "discover_declared": "discovery.robot",
         "explain": "files.explanation",
         "fits": "files.decisions",
+        "in_one_unit": "mixed_units",
         "named_direction": "facing",
         "of_drawn": "labelling.halves",
         "parse_machine": "files.whole",
@@ -90,6 +94,7 @@ __getattr__, __dir__ = lazy_names(
         "read_alignment": "files.alignment_json",
         "read_joints": "files.alignment_json",
         "read_values": "files.alignment_json",
+        "reviewed": "mixed_units",
         "said_in": "files.alignment_json",
         "to_scale": "assignment.unit_scale",
         "twin_role": "assignment.sides",

@@ -162,17 +162,17 @@ def _diameters(template: Template, specifications: Specifications) -> Iterator[f
 def scaled(assembly: Assembly, factor: float) -> Assembly:
     """The model `factor` times as large, about the CAD file's origin."""
     mark = f"x{factor:.9g}"
-    shapes = {key + mark: _larger(shape, factor, shape.key + mark) for key, shape in assembly.shapes.items()}
+    shapes = {key + mark: larger(shape, factor, shape.key + mark) for key, shape in assembly.shapes.items()}
     parts = []
     for part in assembly.parts:
-        parts.append(replace(part, transform=_farther(part.transform, factor), shape=part.shape + mark))
+        parts.append(replace(part, transform=farther(part.transform, factor), shape=part.shape + mark))
     joints = tuple(_joint(joint, factor) for joint in assembly.joints)
-    nodes = tuple(replace(node, transform=_farther(node.transform, factor)) for node in assembly.nodes)
+    nodes = tuple(replace(node, transform=farther(node.transform, factor)) for node in assembly.nodes)
     unit = assembly.unit * factor
     return replace(assembly, parts=tuple(parts), shapes=shapes, unit=unit, joints=joints, nodes=nodes)
 
 
-def _farther(transform: Floats, factor: float) -> Floats:
+def farther(transform: Floats, factor: float) -> Floats:
     """A (4, 4) transform, its place `factor` times as far from the origin."""
     matrix = transform.copy()
     matrix[:3, 3] *= factor
@@ -185,7 +185,8 @@ def _joint(joint: DeclaredJoint, factor: float) -> DeclaredJoint:
     return replace(joint, anchor=_triple(joint.anchor, factor), lower=lower, upper=upper)
 
 
-def _larger(shape: Shape, factor: float, key: str) -> Shape:
+def larger(shape: Shape, factor: float, key: str) -> Shape:
+    """A shape `factor` times as large about its frame's origin, under a key of its own."""
     mesh = shape.mesh
     return replace(
         shape,
@@ -209,7 +210,7 @@ def _larger(shape: Shape, factor: float, key: str) -> Shape:
 def _cylinder(c: CylinderFeature, factor: float) -> CylinderFeature:
     return replace(
         c, point=_triple(c.point, factor), radius=c.radius * factor, lower=c.lower * factor, upper=c.upper * factor,
-        area=c.area * factor**2,
+        area=c.area * factor**2, error=c.error * factor,
     )  # fmt: skip
 
 

@@ -21,6 +21,8 @@ APART = 0.6
 """Confidence that a part which stands apart is no part of the machine: one remark speaks for all of them."""
 MOSTLY = 0.5
 """Where contacts leave more than this share of the surface in doubt, they are not sure of the rest either."""
+LEFT_OUT = 0.1
+"""What stands apart is for review where it has more than this share of the surface: it may be the machine's own."""
 CLEARLY = 0.95
 """From this probability on it is told that a person decided otherwise."""
 
@@ -55,6 +57,9 @@ def to_alignment(
     if answer.judged is None and _share(doubted, assembly) > MOSTLY:
         # What hangs on bodies that are in doubt is in doubt itself.
         doubted |= {p.id for p in assembly.parts if p.id in labels.places and p.id not in labels.decided}
+    beside = {part for part, metres in labels.apart.items() if metres and part not in labels.decided}
+    if _share(beside, assembly) > LEFT_OUT:
+        doubted |= beside
     played = {p.role for p in parts} | {p.body for p in parts}
     missing = tuple(r.name for r in template.roles if is_required(r.name, template) and r.name not in played)
     doubtful = tuple(p.part for p in sorted(parts, key=lambda p: p.confidence) if p.part in doubted)
