@@ -178,6 +178,29 @@ def test_a_sub_heading_over_its_first_row_between_two_rules(tmp_path: Path) -> N
     assert found(tmp_path / "a.pdf", names=tuple(truth)) == ok(truth)
 
 
+def test_a_heading_in_capitals_under_a_section_of_one_row_between_two_rules(tmp_path: Path) -> None:
+    """Zebra rows with a rule under each heading: the next heading stands between two rules with the only row."""
+    c = canvas(tmp_path / "a.pdf")
+    put(c, 40, 790, "Item", bold=True)
+    put(c, 300, 790, "XA 10", bold=True)
+    put(c, 400, 790, "XA 20", bold=True)
+    y = 772.0
+    for heading, rows in (("BUCKET", (("Bucket capacity, m3", "0.25", "0.3"),)),
+                          ("DIMENSIONS", (("Overall width, mm", "2,055", "2,185"),)),
+                          ("UNDERCARRIAGE", (("Track gauge, mm", "1,660", "1,765"),))):  # fmt: skip
+        put(c, 40, y, heading, bold=True)
+        c.line(40, y - 4, 440, y - 4)
+        for label, first, second in rows:
+            y -= 15
+            put(c, 40, y, label)
+            put(c, 300, y, first)
+            put(c, 400, y, second)
+        y -= 15
+    c.save()
+    names = ("Overall Width", "Bucket Width", "Track Gauge")
+    assert found(tmp_path / "a.pdf", "XA 20", names) == ok({"Overall Width": 2.185, "Track Gauge": 1.765})
+
+
 def test_a_colon_in_a_column_of_its_own_is_no_label(tmp_path: Path) -> None:
     c = canvas(tmp_path / "a.pdf")
     put(c, 40, 780, "Dimensions", bold=True, size=10)

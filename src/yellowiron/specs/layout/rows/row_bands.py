@@ -7,6 +7,7 @@ from collections.abc import Iterator, Sequence
 from yellowiron.specs.language.numbers import read
 from yellowiron.specs.language.quantities import same
 from yellowiron.specs.layout.rows.cells import cells_of
+from yellowiron.specs.layout.rows.headings import in_capitals
 from yellowiron.specs.layout.rows.lines import TextLine
 from yellowiron.specs.layout.statement import TextPiece, kind_of, unit_in_label, words_beside_numbers
 from yellowiron.specs.layout.tolerances import INDENT, LARGER
@@ -46,9 +47,16 @@ def _is_heading_over(first: TextLine, rest: Sequence[TextLine]) -> bool:
 
 
 def _is_heading_under(last: TextLine, before: Sequence[TextLine]) -> bool:
-    """Whether the last line is words alone, larger than the lines over it: the heading of what follows."""
+    """Whether the last line is words alone, larger than the lines over it, or bold capitals under a row of neither: the
+    heading of what follows."""
     worded = len(_words(last)) == 1 and kind_of(last.pieces[0]) == "text"
-    return worded and _is_larger(last, before) and last.top >= max(line.bottom for line in before) - 1
+    emphasised = _is_emphasised(last) and any(map(_is_labelled, before)) and not any(map(_is_emphasised, before))
+    stands_out = _is_larger(last, before) or (emphasised and last.x0 <= min(line.x0 for line in before) + 1)
+    return worded and stands_out and last.top >= max(line.bottom for line in before) - 1
+
+
+def _is_emphasised(line: TextLine) -> bool:
+    return any(p.bold and in_capitals(p) for p in line.pieces)
 
 
 def _is_larger(line: TextLine, others: Sequence[TextLine]) -> bool:
