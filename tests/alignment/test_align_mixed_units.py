@@ -61,6 +61,17 @@ def test_a_sound_model_is_the_same_object(sound: Assembly) -> None:
     assert not units.mended and not units.lost
 
 
+def test_touching_much_says_nothing_of_what_is_inside_the_machine(sound: Assembly) -> None:
+    """A small part by the file's origin that touches nothing (a pin with play) touches the more the larger it is."""
+    pin = min(sound.parts, key=lambda p: sound.shape_of(p).area)
+    place = pin.transform.copy()
+    place[:3, 3] = (0.01, 0.013, 0.017)
+    middle = sound.points_of(pin).mean(axis=0) - pin.transform[:3, 3]
+    place[:3, 3] -= middle
+    model = replace(sound, parts=(*sound.parts, replace(pin, id="loose", transform=place)))
+    assert in_one_unit(model)[0] is model
+
+
 @pytest.mark.parametrize("ratio", [1e3, 1e-3, 1 / INCH, INCH, 0.1])
 def test_one_part_in_another_unit(machine: Machine, sound: Assembly, ratio: float) -> None:
     part = of_body(machine, "bucket")[0]

@@ -201,6 +201,26 @@ def test_a_heading_in_capitals_under_a_section_of_one_row_between_two_rules(tmp_
     assert found(tmp_path / "a.pdf", "XA 20", names) == ok({"Overall Width": 2.185, "Track Gauge": 1.765})
 
 
+def test_a_sign_at_the_end_of_the_row_that_reads_as_a_unit_is_none_where_columns_have_theirs(tmp_path: Path) -> None:
+    """A list of buckets, in its last column a round sign whose letter is "s": no capacity is seconds."""
+    c = canvas(tmp_path / "a.pdf")
+    for x, head, unit in ((200, "Bucket capacity", "m3"), (300, "Bucket width", "mm")):
+        put(c, x, 780, head, bold=True)
+        put(c, x, 766, unit)
+    put(c, 400, 780, "Long stick", bold=True)
+    for i, (name, capacity, width, sign) in enumerate(
+        (("General purpose", "0.94", "762", "s"), ("Rock", "1.19", "914", "s"), ("Ditch", "1.46", "1,067", ""))
+    ):
+        y = 750 - 15 * i
+        for x, text in ((40, name), (200, capacity), (300, width), (400, sign)):
+            if text:
+                put(c, x, y, text)
+        c.line(40, y - 4, 460, y - 4)
+    c.save()
+    units = {s.text: s.unit for s in read_sheet(tmp_path / "a.pdf").statements if s.text in ("0.94", "1.19", "762")}
+    assert units == {"0.94": is_unit("m3"), "1.19": is_unit("m3"), "762": "mm"}
+
+
 def test_a_colon_in_a_column_of_its_own_is_no_label(tmp_path: Path) -> None:
     c = canvas(tmp_path / "a.pdf")
     put(c, 40, 780, "Dimensions", bold=True, size=10)

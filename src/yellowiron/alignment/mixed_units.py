@@ -37,8 +37,8 @@ SURELY = 9.0
 """Enlarged by less than this, many a part stays inside the machine: it must fit twice."""
 BY_CHANCE = 20.0
 """… and from this on it is in the wrong place whatever it touches there."""
-AT_ALL = 100.0
-"""… and from this on nothing but that it touches several parts there need speak for it."""
+ENOUGH = 3
+"""What is enlarged until it is in the machine fits one part or two there by chance."""
 GIANT = 1.5
 """What is so many times as large as all the rest together is out of scale."""
 PLAIN = 12
@@ -262,17 +262,17 @@ class _Rest:
         for guess in guesses:
             solid, twin = self._solid(*_enlarged(part, self._assembly, guess)), twins[guess]
             times = max(guess.ratio, 1.0 / guess.ratio) if out or not guess.own else 1.0
-            needed = 1 + (times < BY_CHANCE) + (times < SURELY)
+            needed = ENOUGH if guess.ratio > 1.0 else 1 + (times < BY_CHANCE) + (times < SURELY)
             fitting = len(self._fitting(solid))
             fits = fitting + 2 * bool(twin) >= needed
-            if not fits and times < (BY_CHANCE if floats else AT_ALL):
-                continue
+            if not fits and not (out and guess.ratio < 1.0 / BY_CHANCE):
+                continue  # what is enlarged inside the machine touches the more the larger it is
             touched = sum(1 for _ in self._touched(solid))
             words = f"{guess.ratio:.6g} times as large about {_ABOUT[guess.own]} origin it "
             if fits and (touched or (twin and times >= SURELY)):
                 words += f"is like {twin} and fits {fitting} parts" if twin else f"fits {fitting} parts"
                 ranked.append((1, touched + fitting + 2 * bool(twin), guess, words))
-            elif touched > 1 and times >= (BY_CHANCE if floats else AT_ALL):
+            elif touched > 1 and not fits:
                 ranked.append((0, touched, guess, f"{words}touches {touched} parts"))
         ranked.sort(key=lambda item: (-item[0], -item[1]))
         if not ranked or (len(ranked) > 1 and ranked[1][:2] == ranked[0][:2]):

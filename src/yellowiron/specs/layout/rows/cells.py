@@ -34,12 +34,13 @@ _LONGEST_NOTE = 8
 @dataclass
 class ValueCell:
     """The pieces of one value: its label's, its own (one below the other: metric, imperial), the words after the last
-    value of the row; `unit` where a piece of its own gives it."""
+    value of the row; `unit` where a piece of its own gives it, or, `lent`, one at the end of the row all of them."""
 
     label: list[TextPiece]
     values: list[TextPiece]
     notes: list[TextPiece] = field(default_factory=list)
     unit: str = ""
+    lent: bool = False
 
 
 def statement_of(
@@ -59,6 +60,7 @@ def statement_of(
             label, text = inline
     column = [h for h in heads if not is_unit(h.bare)]
     unit = next((u for h in reversed(heads) if (u := is_unit(h.bare) or unit_in_label(h.bare)[1])), "")
+    own = "" if cell.lent and any(is_unit(h.bare) for h in heads) else cell.unit  # "s" may be a sign's letter: ●
     bare = not cell.unit and not unit and not any(q.unit for r in read(text) for q in r.numbers)
     label, label_unit = unit_in_label(without_key(label), bare=bare)
     box = join_boxes(p.box for p in cell.values)
@@ -71,7 +73,7 @@ def statement_of(
         quote=_quote(page, row, above, cell, column if not cell.label else []),
         context=tuple(p.bare for p in context),
         column=tuple(unit_in_label(h.bare)[0] for h in column if h.bare),
-        unit=cell.unit or label_unit or unit,
+        unit=own or label_unit or unit,
         example=any(EXAMPLE.search(h.text) for h in heads)
         or marked_by_footnote(page, [*cell.label, *cell.values, *heads]),
         x0=box[0],
@@ -157,7 +159,7 @@ def _with_notes(cells: list[ValueCell], after: list[TextPiece], kinds: _Kinds) -
         if not _has_unit(cells[-1]):
             cells[-1].values.append(units[0])
     elif units and all(not c.unit for c in cells):
-        cells = [replace(c, unit=is_unit(units[0].bare)) for c in cells]
+        cells = [replace(c, unit=is_unit(units[0].bare), lent=True) for c in cells]
     for note in (p for p in after if kinds[p] == "text"):
         if is_key(note.bare):
             break  # another table's key
