@@ -221,14 +221,18 @@ class Dozer(Digger):
         self.m.add(
             "exhaust", body, body, tube("exhaust", 0.05 * s, 0.04 * s, 0.6 * s), place(self.spot(0.8, 0.1, hood), Z)
         )
-        inside = abs(self.inside(self.gauge / 2)) / s - 0.02
         for side, _ in SIDES:
-            for k, x in enumerate((-0.25, -1.1)):
-                low, high = sorted((side * (h - e), side * (inside + e)))
-                self.block(f"axle beam {k}", body, (x - 0.1, low, 0.43), (x + 0.1, high, 0.56))
+            self.track_beams(side)
             for k in range(3):
                 at = self.spot(-1.5, side * 0.2, 1.15 + 0.12 * k)
                 self.m.add("M20", body, body, bolt("tank_bolt", 0.012 * s, 0.05 * s), place(at, -X))
+
+    def track_beams(self, side: int) -> None:
+        """What joins a track's frame to the main frame."""
+        e, inside = self.e / self.s, abs(self.inside(self.gauge / 2)) / self.s - 0.02
+        for k, x in enumerate((-0.25, -1.1)):
+            low, high = sorted((side * (self.hull - e), side * (inside + e)))
+            self.block(f"axle beam {k}", self.carrier, (x - 0.1, low, 0.43), (x + 0.1, high, 0.56))
 
     def lift(self, letter: str, side: int, y: float, rod_at: Array) -> None:
         halves = (f"lift_cylinder_barrel_{letter}", f"lift_piston_rod_{letter}")
