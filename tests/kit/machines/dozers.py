@@ -59,6 +59,8 @@ class Dozer(Digger):
     """One machine from one generator of random numbers."""
 
     carrier = "main_frame"
+    frame_thick = 0.04
+    """Of a track's frame."""
 
     def __init__(
         self, seed: int, *, arms: bool, dual: bool, wings: bool, high: bool, ripper: str, embedded: bool
@@ -393,7 +395,7 @@ class Dozer(Digger):
         t, gap = self.t / s, self.gap / s
         outer = self.gauge / 2 / s + 0.275
         ya, z, pivot = outer + 0.09 + t / 2, self.axle_z / s, 0.1
-        wall = abs(self.inside(self.gauge / 2)) / s + 0.02
+        wall = abs(self.inside(self.gauge / 2)) / s + self.frame_thick / 2
         y_lift = 0.42 + self.lug_y
         self.lift_foot(y_lift, 1.34, 0.3 - e)
         tag = (f - 0.06, -0.25)
@@ -402,9 +404,10 @@ class Dozer(Digger):
         tag_at = self.world(*tag, 0.55)
         for side, letter in SIDES:
             ring = tube("trunnion boss", 2.2 * self.pin_r, self.bore_r, 0.03 * s)
-            m.add("trunnion boss", main, main, ring, place(self.spot(pivot, side * (wall - e), z), side * Y))
+            frame = self.bearer(f"idler_{letter}")
+            m.add("trunnion boss", frame, frame, ring, place(self.spot(pivot, side * (wall - e), z), side * Y))
             low, high = sorted((side * wall, side * (ya + 0.8 * t)))
-            self.pin(f"push_arm_{letter}_pin", main, self.spot(pivot, low, z), self.spot(pivot, high, z))
+            self.pin(f"push_arm_{letter}_pin", frame, self.spot(pivot, low, z), self.spot(pivot, high, z))
         m.pose = raised(self.up, self.spot(pivot, 0, z))
         fork, king, foot, back = (f + 0.4, 0.45), f + 0.53, (f - 0.5, 0.72), f + 0.64
         ends = {}

@@ -19,10 +19,11 @@ SHAFT = -0.75
 
 
 class RockingDozer(Dozer):
-    """One on a C-frame: push arms would stand on the track frames."""
+    """One machine from one generator of random numbers. Push arms stand on the track frames."""
 
-    def __init__(self, seed: int, *, high: bool, ripper: str, embedded: bool) -> None:
-        super().__init__(seed, arms=False, dual=False, wings=False, high=high, ripper=ripper, embedded=embedded)
+    def link_pins(self) -> None:
+        super().link_pins()
+        self.frame_thick = self.t / self.s
 
     def bearer(self, role: str) -> str:
         name = role.rstrip("_0123456789")
@@ -103,8 +104,15 @@ class RockingDozer(Dozer):
         self.pin(role, body, self.spot(BAR - half, *at), self.spot(BAR + half, *at))
 
 
-def rocking_dozer(seed: int, *, high: bool | None = None, ripper: str = "", embedded: bool = False) -> Machine:
-    """The machine of a seed, in its own frame, in drawing order, with names."""
-    drawn = np.random.default_rng([seed, 67]).random()
-    high = bool(drawn < 0.4) if high is None else high
-    return RockingDozer(seed, high=high, ripper=ripper, embedded=embedded).draw()
+def rocking_dozer(
+    seed: int, blade: str | None = None, *, high: bool | None = None, ripper: str | None = None, embedded: bool = False
+) -> Machine:
+    """The machine of a seed, in its own frame, in drawing order, with names; what is not stated is the seed's. `blade`
+    and `ripper` as for `dozer`, `""` for none."""
+    drawn = np.random.default_rng([seed, 67]).random(5)
+    arms = bool(drawn[1] < 0.5) if blade is None else blade == "push_arms"
+    return RockingDozer(
+        seed, arms=arms, dual=arms and bool(drawn[2] < 0.4), wings=arms and bool(drawn[3] < 0.5),
+        high=bool(drawn[0] < 0.4) if high is None else high,
+        ripper=("radial" if drawn[4] < 0.3 else "") if ripper is None else ripper, embedded=embedded,
+    ).draw()  # fmt: skip
