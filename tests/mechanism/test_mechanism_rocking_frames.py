@@ -109,3 +109,11 @@ def test_nameless_every_part_is_in_its_body(seed: int, blade: str, high: bool, t
     """The sprocket on top of a track is the main frame's, though the rear wheel below has its role."""
     found = found_whole(rocking_dozer(seed, blade, high=high), "dozer", seed, triangles=triangles)
     assert found.choices["track_frames"] == "oscillating" and found.choices["blade"] == blade
+
+
+def test_a_pivot_that_does_not_reach_its_limit_is_told_in_degrees() -> None:
+    """A bar's 4° were 70 mm."""
+    machine = rocking_dozer(733, "push_arms", high=False, ripper="")
+    choices = {**CHOICES, "blade": "push_arms", "tilt": "dual"}
+    words = next(f.message for f in without(machine, "dozer", (), choices=choices).findings if f.code == "KIN002")
+    assert f"{BAR} -4°" in words
