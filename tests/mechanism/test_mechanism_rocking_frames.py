@@ -1,5 +1,5 @@
-"""A dozer's oscillating track frames: one freedom more, their poses against a solution by the bar's circle, what a front
-idler travels, every part found without names."""
+"""A dozer's oscillating track frames: one freedom more, their poses against a solution by the bar's circle, what a
+front idler travels, every part found without names."""
 
 from __future__ import annotations
 
@@ -35,7 +35,8 @@ def _frame(mechanism: Mechanism, side: str, bar: float) -> float:
             f"roller_frame_{side}2equalizer_link_{side}_joint",
         )
     )  # fmt: skip
-    swung = hub + [low[0] - hub[0], *_turned(low[1] - hub[1], low[2] - hub[2], bar)]
+    y, z = _turned(low[1] - hub[1], low[2] - hub[2], bar)
+    swung = np.array([low[0], hub[1] + y, hub[2] + z])
 
     def longer(turn: float) -> float:
         x, z = _turned(high[0] - pivot[0], high[2] - pivot[2], -turn)

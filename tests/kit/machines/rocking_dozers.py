@@ -1,5 +1,5 @@
-"""The drawn dozers on track frames that rock: each turns on a stub of the pivot shaft, in front of its sprocket, which is
-the main frame's; in front an equaliser bar under the belly, from whose ends shackles go up to the frames.
+"""The drawn dozers on track frames that rock: each turns on a stub of the pivot shaft, in front of its sprocket, which
+is the main frame's; in front an equaliser bar under the belly, from whose ends shackles go up to the frames.
 
 Lengths are in machine sizes, as in `dozers`.
 """
@@ -60,7 +60,9 @@ class RockingDozer(Dozer):
                             (SHAFT + 0.07, side * (inner - 0.5 * t + e), z + 0.07))  # fmt: skip
         self.block("pivot beam", self.carrier, *beam)
         self.level_pin(f"roller_frame_{letter}_pin", self.carrier, (SHAFT, z), side * 0.5 * (wall + inner), 1.2 * t)
-        x, up = next((x / self.s, self.axle_z / self.s + h / self.s) for name, x, h in self.loop()[1] if name == "sprocket")
+        x, up = next(
+            (x / self.s, self.axle_z / self.s + h / self.s) for name, x, h in self.loop()[1] if name == "sprocket"
+        )
         drive = self._sorted((x - 0.12, side * (self.hull - e), up - 0.12), (x + 0.12, side * (wall - 0.04), up + 0.12))
         self.block("final drive", self.carrier, *drive)
 
@@ -91,7 +93,13 @@ class RockingDozer(Dozer):
 
     # ---- pieces ----
     def crosswise(
-        self, name: str, body: str, x: float, thick: float, circles: list[tuple[float, ...]], *holes: tuple[float, float]
+        self,
+        name: str,
+        body: str,
+        x: float,
+        thick: float,
+        circles: list[tuple[float, ...]],
+        *holes: tuple[float, float],
     ) -> None:
         """An upright plate across the machine, its outline around circles (y, z, radius or 0)."""
         outline = around(*(tuple(self.s * c for c in circle) for circle in circles))
