@@ -35,6 +35,7 @@ def test_every_part_is_in_its_body(seed: int, blade: str, dual: bool, high: bool
     found = found_whole(machine, "dozer", seed, triangles=False)
     assert found.choices == {
         "blade": blade, "tilt": "dual" if dual else "single", "ripper": "radial" if ripper else "none",
+        "track_frames": "fixed",
     }  # fmt: skip
 
 

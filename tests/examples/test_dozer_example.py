@@ -96,6 +96,7 @@ def test_it_is_ready(built: Built) -> None:
         "blade": "pat",
         "tilt": "single",
         "ripper": "none",
+        "track_frames": "fixed",
     }
 
 

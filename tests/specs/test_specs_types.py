@@ -62,6 +62,7 @@ MACHINES: Mapping[str, Mapping[str, str]] = {
         "Max tilt angle": "Blade Tilt Angle", "Length with blade straight": "Length with Blade",
         "Blade weight": "Blade Weight", "Blade capacity 6SU": "Blade Capacity",
         "Pitch adjustment +/-": "Blade Pitch Adjustment",
+        "Oscillation at front idler": "Oscillation at Front Idler",
     },
     "cat-140": {
         "Moldboard width": "Moldboard Length", "Moldboard height": "Moldboard Height",

@@ -156,7 +156,7 @@ def _reachable(work: _Work, joint: Joint, end: str, limit: float) -> float:
         "KIN001",
         "warning",
         joint.name,
-        f"the linkage locks {1e3 * stop:.1f} mm from the drawn pose, before the stroke's end at {1e3 * limit:.1f} mm",
+        f"the linkage locks {_way(joint, stop)} from the drawn pose, before the stroke's end at {_way(joint, limit)}",
         "Check the stroke, the closed length and the pins of this cylinder's loop.",
     )
     source = {**work.joints[joint.name].source, f"{end}_reason": "from the loop: dead point"}
@@ -165,11 +165,20 @@ def _reachable(work: _Work, joint: Joint, end: str, limit: float) -> float:
     return stop
 
 
+def _way(joint: Joint, value: float, *, digits: int = 1) -> str:
+    """A coordinate in words: of a pivot in degrees, of a slide in millimetres."""
+    if joint.type == "revolute":
+        return f"{math.degrees(value):.{digits}f}°"
+    return f"{1e3 * value:.{digits}f} mm"
+
+
 def _report_unreachable(grid: PoseGrid, work: _Work) -> None:
     if not grid.unreachable:
         return
     share = 100.0 * len(grid.unreachable) / (len(grid.unreachable) + len(grid.states))
-    at = ", ".join(f"{n} {1e3 * v:.0f} mm" for n, v in zip(grid.drivers, grid.unreachable[0], strict=True))
+    at = ", ".join(
+        f"{n} {_way(work.joints[n], v, digits=0)}" for n, v in zip(grid.drivers, grid.unreachable[0], strict=True)
+    )
     work.find(
         "KIN002",
         "warning",

@@ -59,6 +59,8 @@ class Dozer(Digger):
     """One machine from one generator of random numbers."""
 
     carrier = "main_frame"
+    frame_thick = 0.04
+    """Of a track's frame."""
 
     def __init__(
         self, seed: int, *, arms: bool, dual: bool, wings: bool, high: bool, ripper: str, embedded: bool
@@ -221,14 +223,18 @@ class Dozer(Digger):
         self.m.add(
             "exhaust", body, body, tube("exhaust", 0.05 * s, 0.04 * s, 0.6 * s), place(self.spot(0.8, 0.1, hood), Z)
         )
-        inside = abs(self.inside(self.gauge / 2)) / s - 0.02
         for side, _ in SIDES:
-            for k, x in enumerate((-0.25, -1.1)):
-                low, high = sorted((side * (h - e), side * (inside + e)))
-                self.block(f"axle beam {k}", body, (x - 0.1, low, 0.43), (x + 0.1, high, 0.56))
+            self.track_beams(side)
             for k in range(3):
                 at = self.spot(-1.5, side * 0.2, 1.15 + 0.12 * k)
                 self.m.add("M20", body, body, bolt("tank_bolt", 0.012 * s, 0.05 * s), place(at, -X))
+
+    def track_beams(self, side: int) -> None:
+        """What joins a track's frame to the main frame."""
+        e, inside = self.e / self.s, abs(self.inside(self.gauge / 2)) / self.s - 0.02
+        for k, x in enumerate((-0.25, -1.1)):
+            low, high = sorted((side * (self.hull - e), side * (inside + e)))
+            self.block(f"axle beam {k}", self.carrier, (x - 0.1, low, 0.43), (x + 0.1, high, 0.56))
 
     def lift(self, letter: str, side: int, y: float, rod_at: Array) -> None:
         halves = (f"lift_cylinder_barrel_{letter}", f"lift_piston_rod_{letter}")
@@ -389,7 +395,7 @@ class Dozer(Digger):
         t, gap = self.t / s, self.gap / s
         outer = self.gauge / 2 / s + 0.275
         ya, z, pivot = outer + 0.09 + t / 2, self.axle_z / s, 0.1
-        wall = abs(self.inside(self.gauge / 2)) / s + 0.02
+        wall = abs(self.inside(self.gauge / 2)) / s + self.frame_thick / 2
         y_lift = 0.42 + self.lug_y
         self.lift_foot(y_lift, 1.34, 0.3 - e)
         tag = (f - 0.06, -0.25)
@@ -398,9 +404,10 @@ class Dozer(Digger):
         tag_at = self.world(*tag, 0.55)
         for side, letter in SIDES:
             ring = tube("trunnion boss", 2.2 * self.pin_r, self.bore_r, 0.03 * s)
-            m.add("trunnion boss", main, main, ring, place(self.spot(pivot, side * (wall - e), z), side * Y))
+            frame = self.bearer(f"idler_{letter}")
+            m.add("trunnion boss", frame, frame, ring, place(self.spot(pivot, side * (wall - e), z), side * Y))
             low, high = sorted((side * wall, side * (ya + 0.8 * t)))
-            self.pin(f"push_arm_{letter}_pin", main, self.spot(pivot, low, z), self.spot(pivot, high, z))
+            self.pin(f"push_arm_{letter}_pin", frame, self.spot(pivot, low, z), self.spot(pivot, high, z))
         m.pose = raised(self.up, self.spot(pivot, 0, z))
         fork, king, foot, back = (f + 0.4, 0.45), f + 0.53, (f - 0.5, 0.72), f + 0.64
         ends = {}

@@ -293,9 +293,9 @@ class Digger(Drawer):
                 a, b = pins[k], pins[(k + 1) % n]
                 along = (b - a) / p
                 role = f"track_shoe_{side}_{k + 1}"
-                m.add("shoe", role, self.carrier, shoe, place(0.5 * (a + b), np.cross(Y, along), along))
+                m.add("shoe", role, self.bearer(role), shoe, place(0.5 * (a + b), np.cross(Y, along), along))
                 if self.f.track_pins:
-                    m.add("track_pin", role, self.carrier, pin, place(a - 0.125 * s * Y, Y))
+                    m.add("track_pin", role, self.bearer(role), pin, place(a - 0.125 * s * Y, Y))
             low, high = z0 - r + lug + 0.08 * s, z0 + r - lug - 0.06 * s
             shapes = {"sprocket": (sprocket, 0.06), "idler": (idler, 0.05)}
             wheels = [(f"{name}_{side}", shapes[name][0], x, z0 + z, shapes[name][1]) for name, x, z in big]
@@ -305,12 +305,21 @@ class Digger(Drawer):
             for k, x in enumerate(above if len(big) == 2 else ()):
                 wheels.append((f"carrier_roller_{side}_{k + 1}", carrier, float(x), high, 0.025))
             for role, shape, x, z, bore in wheels:
-                m.add(role.rstrip("_0123456789"), role, self.carrier, shape, place((x, y, z), Y, X))
+                body = self.bearer(role)
+                m.add(role.rstrip("_0123456789"), role, body, shape, place((x, y, z), Y, X))
                 axle = tube(f"axle_{bore}", 0.999 * bore * s, 0.0, 0.42 * s)
-                m.add("axle", self.carrier, self.carrier, axle, place((x, y - 0.21 * s, z), Y))
-            height = 0.9 * (high - low)
-            frame = box("track_frame", 2 * half + 0.2 * s, 0.04 * s, height)
-            m.add("track_frame", self.carrier, self.carrier, frame, place((0, self.inside(y), z0), Z, X))
+                m.add("axle", body, body, axle, place((x, y - 0.21 * s, z), Y))
+            self.track_frame(y, 0.9 * (high - low))
+
+    def bearer(self, role: str) -> str:
+        """The body that a part of a track moves with."""
+        return self.carrier
+
+    def track_frame(self, y: float, height: float) -> None:
+        """What carries a track's wheels."""
+        frame = box("track_frame", 2 * self.half + 0.2 * self.s, 0.04 * self.s, height)
+        at = place((0, self.inside(y), self.axle_z), Z, X)
+        self.m.add("track_frame", self.carrier, self.carrier, frame, at)
 
     def inside(self, y: float) -> float:
         """y of a track's frame."""

@@ -1,7 +1,8 @@
 """The roles of a track's parts, and of what stands on a track.
 
 The wheel with teeth is the sprocket, the one at the other end the idler; rollers lie on the ground's side, carrier
-rollers on the other.
+rollers on the other. Of a loop with a high sprocket the rear wheel has that role, for the track's length on the ground
+is measured there; what each moves with is told by where it is.
 """
 
 from __future__ import annotations
@@ -58,11 +59,21 @@ def track_places(
                 continue
             for number, group in enumerate(groups, 1):
                 name = member(role.name, number) if role.many else role.name
-                body = template.body_of(name)
+                body = template.body_of(_bearing(kind, group, track, frame, rows) if not role.rigid else name)
                 if body is not None:
                     said = f"{words} of {len(groups)}" if role.many else words
                     places |= {ids[i]: Place(name, body, SURE, said, how="track") for i in group}
     return places
+
+
+def _bearing(kind: str, group: tuple[int, ...], track: Track, frame: Floats, rows: Mapping[str, Role]) -> str:
+    """The role that a track's part moves as, where it is no body of its own: its own, but of a loop that runs to a
+    point above it the wheel up there is the sprocket, which its drive holds, and those below turn on the track's frame
+    as an idler does."""
+    if kind == "shoe" or track.above is None or not {"sprocket", "idler"} <= rows.keys():
+        return rows[kind].name
+    top = max(track.wheels, key=lambda wheel: float(frame[2, :3] @ wheel.center))
+    return rows["sprocket" if group == top.members else "idler"].name
 
 
 @dataclass(frozen=True, eq=False)

@@ -10,7 +10,7 @@ from typing import Any
 
 import numpy as np
 
-from yellowiron.kinematics.solver.chain import ClosedChain, State
+from yellowiron.kinematics.solver.chain import ClosedChain, KinematicsError, State
 from yellowiron.model.geometry import Floats
 from yellowiron.model.mechanism import Body, Joint, Mechanism, Site
 from yellowiron.support.vectors import triple
@@ -244,6 +244,22 @@ def _joint_range(quantity: Mapping[str, Any], posed: Posed) -> float:
     return joint.upper - joint.lower
 
 
+def _travel(quantity: Mapping[str, Any], posed: Posed) -> float:
+    """How far up or down a site goes as a free joint turns from one limit to the other; what is on loops with it
+    follows."""
+    joint = _joint(quantity.get("joint"), posed)
+    if joint.lower is None or joint.upper is None or joint.name not in posed.chain.independent:
+        raise Unmeasurable(f"the joint '{joint.name}' does not go from one limit to another by itself")
+    heights = []
+    for end in (joint.lower, joint.upper):
+        try:
+            state = posed.chain.solve({joint.name: end}, start=posed.state)
+        except KinematicsError as error:
+            raise Unmeasurable(f"the linkage locks on the way to a limit of '{joint.name}'") from error
+        heights.append(_height({"site": quantity.get("site")}, replace(posed, state=state)))
+    return abs(heights[1] - heights[0])
+
+
 def _bodies(quantity: Mapping[str, Any], posed: Posed) -> list[Body]:
     wanted = quantity.get("bodies", "*")
     names = [wanted] if isinstance(wanted, str) else list(wanted)
@@ -388,6 +404,7 @@ _KINDS: Mapping[str, Callable[[Mapping[str, Any], Posed], float]] = {
     "reach": _reach,
     "joint_angle": _joint_angle,
     "joint_range": _joint_range,
+    "travel": _travel,
     "extent": _extent,
     "distance": _distance,
     "radius": _radius,

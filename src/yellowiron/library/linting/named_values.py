@@ -81,7 +81,7 @@ def measurements(template: Template) -> Iterator[Finding]:
     parts = [f"{r.name}_1" if r.many else r.name for r in template.roles]
     wanted = {fold(w.name) for w in template.wanted}
     for measurement in template.measurements:
-        if fold(measurement.specification) not in wanted:
+        if measurement.specification and fold(measurement.specification) not in wanted:
             yield Finding(
                 "TPL011",
                 "warning",
