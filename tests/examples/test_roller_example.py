@@ -129,7 +129,10 @@ def built(request: pytest.FixtureRequest, made_once: MadeOnce) -> Built:
 def test_it_is_ready(built: Built) -> None:
     single = "rear_wheel_l_joint" in built.truth["joints"]
     assert_ready(built, 5 if single else 4, {"steering", "drive"})
-    assert built.machine.alignment.choices == {"drums": "single" if single else "tandem", "steering_cylinders": "twin"}
+    drums = "single" if single else "tandem"
+    assert built.machine.alignment.choices == {
+        "drums": drums, "steered_by": "articulation", "steering_cylinders": "twin",
+    }  # fmt: skip
 
 
 @pytest.mark.slow
