@@ -69,7 +69,9 @@ def test_touching_much_says_nothing_of_what_is_inside_the_machine(sound: Assembl
     middle = sound.points_of(pin).mean(axis=0) - pin.transform[:3, 3]
     place[:3, 3] -= middle
     model = replace(sound, parts=(*sound.parts, replace(pin, id="loose", transform=place)))
-    assert in_one_unit(model)[0] is model
+    found, units = in_one_unit(model)
+    assert found is model
+    assert not units.mended and units.doubted in ((), ("loose",))
 
 
 @pytest.mark.parametrize("ratio", [1e3, 1e-3, 1 / INCH, INCH, 0.1])

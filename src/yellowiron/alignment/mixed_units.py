@@ -56,6 +56,7 @@ ROUNDS = 3
 DOUBT = 0.5
 _ABOUT = {False: "the file's", True: "its node's"}
 LOST = "it is out of all scale, and no unit explains it"
+DOUBTED = "it touches nothing of the rest, and may be in another unit than the rest"
 RATIOS = tuple(sorted({float(f"{a / b:.12g}") for a, b in itertools.permutations(UNITS.values(), 2)}))
 """What a part is to be enlarged by that was written in one unit and read in another."""
 
@@ -63,10 +64,12 @@ RATIOS = tuple(sorted({float(f"{a / b:.12g}") for a, b in itertools.permutations
 @dataclass(frozen=True)
 class OtherUnits:
     """What is taken for another unit: part id → what it was enlarged by, and in words why; `lost`: parts that no unit
-    explains, though they can be no part of the machine as they stand."""
+    explains, though they can be no part of the machine as they stand; `doubted`: parts that touch nothing
+    but each other, and would touch several in another unit."""
 
     mended: Mapping[str, tuple[float, str]] = field(default_factory=dict)
     lost: tuple[str, ...] = ()
+    doubted: tuple[str, ...] = ()
 
 
 @dataclass(frozen=True)
@@ -104,16 +107,19 @@ def in_one_unit(assembly: Assembly) -> tuple[Assembly, OtherUnits]:
         mended |= {part: (guess.ratio, words) for part, (guess, words) in found.items()}
     if len(mended) > MOST * len(parts):
         return drawn, OtherUnits()
-    lost = tuple(p.id for k, p in enumerate(parts) if boxes.lost(k) and p.id not in mended)
-    return assembly, OtherUnits(mended, lost)
+    left = [(k, p.id) for k, p in enumerate(parts) if p.id not in mended]
+    lost = tuple(part for k, part in left if boxes.lost(k))
+    doubted = rest.doubted({part: guesses[k] for k, part in left if k in guesses})
+    return assembly, OtherUnits(mended, lost, doubted)
 
 
 def reviewed(found: Alignment, assembly: Assembly, units: OtherUnits) -> Alignment:
     """The alignment with what was mended, or is lost, told and listed for review. `assembly` is the model as it was
     solved: a part may have come apart, and its pieces bear its id."""
-    if not units.mended and not units.lost:
+    whole = dict.fromkeys(units.doubted, DOUBTED) | dict.fromkeys(units.lost, LOST)
+    whole |= {part: words for part, (_, words) in units.mended.items()}
+    if not whole:
         return found
-    whole = {**{part: words for part, (_, words) in units.mended.items()}, **dict.fromkeys(units.lost, LOST)}
     of = {p.id: part for p in assembly.parts for part in whole if p.id == part or p.id.startswith(f"{part}/")}
     labels = tuple(
         replace(p, confidence=min(p.confidence, DOUBT), reason=f"{p.reason}; but {whole[of[p.part]]}")
@@ -128,9 +134,13 @@ def reviewed(found: Alignment, assembly: Assembly, units: OtherUnits) -> Alignme
         some = sorted(part for part, (_, w) in units.mended.items() if w == words)
         text = f"{len(some)} parts are in another unit than the rest, {words}: {', '.join(some[:5])}"
         findings.append(Finding("ALN033", "warning", where, text + (", …" if len(some) > 5 else ""), hint))
-    if units.lost:
-        text = f"{len(units.lost)} parts are out of all scale, and no unit explains it: {', '.join(units.lost[:5])}"
-        findings.append(Finding("ALN033", "warning", where, text + (", …" if len(units.lost) > 5 else ""), hint))
+    told = (
+        (units.lost, "are out of all scale, and no unit explains it"),
+        (units.doubted, "touch nothing of the rest, and may be in another unit"),
+    )
+    for ids, words in told:
+        text = f"{len(ids)} parts {words}: {', '.join(ids[:5])}" + (", …" if len(ids) > 5 else "")
+        findings += [Finding("ALN033", "warning", where, text, hint)] if ids else []
     return replace(
         found, parts=labels, findings=tuple(findings), to_review=tuple(dict.fromkeys((*found.to_review, *listed)))
     )
@@ -278,6 +288,23 @@ class _Rest:
         if not ranked or (len(ranked) > 1 and ranked[1][:2] == ranked[0][:2]):
             return None
         return ranked[0][2], ranked[0][3]
+
+    def doubted(self, guesses: Mapping[str, Sequence[_Guess]]) -> tuple[str, ...]:
+        """Of parts that could be in another unit those that touch nothing but each other, and several parts if they are
+        much enlarged."""
+        part_of, shapes = self._assembly.part, self._assembly.shapes
+        large = {p: [g for g in some if g.ratio >= BY_CHANCE and not g.own] for p, some in guesses.items()}
+        large = {p: some for p, some in large.items() if some}
+        beside = {p: {str(self._ids[k]) for k in self._touched(self._solid(part_of(p), shapes))} for p in large}
+        alone = set(large)
+        while held := {p for p in alone if beside[p] - alone}:
+            alone -= held
+        found = []
+        for part in (p for p in large if p in alone):
+            enlarged = (_enlarged(part_of(part), self._assembly, g) for g in large[part])
+            if any(len(list(itertools.islice(self._touched(self._solid(*one)), 2))) > 1 for one in enlarged):
+                found.append(part)
+        return tuple(found)
 
     def _solid(self, part: Part, shapes: Mapping[str, Shape]) -> Solid:
         return solids_of(replace(self._assembly, parts=(part,), shapes=shapes))[0]
