@@ -236,13 +236,6 @@ def tokens(text: str) -> tuple[str, ...]:
     return tuple(found)
 
 
-def without_standard(text: str) -> str:
-    """A label of an engine's power without the standard that alone tells the net one from the gross one, or ""."""
-    bare = _GROSS_BY.sub(" ", _NET_BY.sub(" ", text))
-    said = set(tokens(bare)) if bare != text else set[str]()
-    return bare if {"engine", "power"} <= said and not said & {"net", "gross"} else ""
-
-
 def _terms(text: str) -> list[str]:
     found: list[str] = []
     end = 0

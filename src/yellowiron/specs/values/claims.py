@@ -12,7 +12,7 @@ from yellowiron.specs.language.decimal_style import DecimalStyle
 from yellowiron.specs.language.numbers import Reading, read
 from yellowiron.specs.language.quantities import FEET_DASH, FEET_INCHES, Quantity, same
 from yellowiron.specs.language.units import printed_unit
-from yellowiron.specs.language.vocabulary import tokens, without_standard
+from yellowiron.specs.language.vocabulary import tokens
 from yellowiron.specs.layout.statement import COUNTED, GRAVITATIONAL, Statement
 from yellowiron.specs.values.enumerations import COUNTED_PARTS, alternatives, enumerated, opposed, standard_of_two
 
@@ -229,8 +229,6 @@ def _expand(statement: Statement, style: DecimalStyle) -> Iterator[Claim]:
         for one in own:
             for claim in _claims_of_reading(statement, one, reading):
                 yield replace(claim, ranged=True, low=ends[index]) if ends else claim
-            for claim in _claims_of_reading(statement, bare, reading) if (bare := without_standard(one)) else ():
-                yield replace(claim, doubt="the standard in its label tells the net power from the gross one")
 
 
 def _without_chart(readings: Sequence[Reading]) -> Sequence[Reading]:
