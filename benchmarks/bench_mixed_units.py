@@ -16,7 +16,6 @@ import os
 import sys
 from collections import defaultdict
 from collections.abc import Collection, Iterator
-from dataclasses import replace
 from pathlib import Path
 
 import numpy as np
@@ -26,11 +25,11 @@ ROOT = Path(__file__).resolve().parent.parent
 sys.path[:0] = [str(ROOT / "src"), str(ROOT / "tests"), str(ROOT / "benchmarks")]
 
 from bench_units import DRAWN  # noqa: E402
+from kit.machines.another_unit import in_another_unit  # noqa: E402
 from kit.machines.defects import drawn as drawn_machine  # noqa: E402
 from kit.scene import Surface, placed, read  # noqa: E402
 from kit.scoring import score  # noqa: E402
 from strangers_models import models, scene_of  # noqa: E402
-from yellowiron.alignment.assignment.unit_scale import farther, larger  # noqa: E402
 from yellowiron.library import load_template  # noqa: E402
 from yellowiron.model.assembly import Assembly, Part  # noqa: E402
 from yellowiron.model.errors import YellowironError  # noqa: E402
@@ -38,18 +37,6 @@ from yellowiron.model.specification import Specifications  # noqa: E402
 from yellowiron.stages import find_roles  # noqa: E402
 
 RATIOS = (1e3, 1e-3, 25.4, 1 / 25.4)
-
-
-def enlarged(assembly: Assembly, parts: Collection[str], ratio: float) -> Assembly:
-    """The model with some parts so many times as large about the file's origin."""
-    shapes, changed = dict(assembly.shapes), []
-    for part in assembly.parts:
-        if part.id in parts:
-            key = f"{part.shape}*{ratio:.9g}"
-            shapes[key] = larger(assembly.shape_of(part), ratio, key)
-            part = replace(part, shape=key, transform=farther(part.transform, ratio))
-        changed.append(part)
-    return replace(assembly, parts=tuple(changed), shapes=shapes)
 
 
 def restored(
@@ -71,7 +58,7 @@ def restored(
         far = [float(np.median(tree.query(centres * f)[0])) for f in (1.0, 1.0 / ratio)]
         left |= {part.id} if far[1] < far[0] else set()
         right += far[1] >= far[0]
-    return enlarged(model, left, 1.0 / ratio), right
+    return in_another_unit(model, left, 1.0 / ratio), right
 
 
 def machines(names: str, folders: str) -> Iterator[tuple[str, str, Assembly, Surface]]:
@@ -109,7 +96,7 @@ def main() -> None:
             parts = {sound.parts[i].id for i in some.tolist()}
             case = f"{count} x{ratio:.4g}"
             try:
-                model, found = find_roles(enlarged(sound, parts, ratio), template, Specifications())
+                model, found = find_roles(in_another_unit(sound, parts, ratio), template, Specifications())
             except YellowironError as error:
                 print(f"{name:28s} {case:10s} {error}", flush=True)
                 continue

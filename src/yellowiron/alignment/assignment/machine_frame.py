@@ -239,7 +239,7 @@ def _on_root(scene: _Scene) -> list[tuple[str, str]]:
 
 def _across_yokes(scene: _Scene, swing: str | None) -> Floats | None:
     """Across the line from one yoke's pin to the other's, where two frames turn about the upright on the root: what
-    rolls in them is steered, and tells nothing. None where they are not two."""
+    rolls in them is steered, and tells nothing. None where they are not two, or on one line."""
     if swing is None:
         return None
     along = scene.axes[swing].direction
@@ -250,7 +250,8 @@ def _across_yokes(scene: _Scene, swing: str | None) -> Floats | None:
     ]
     if len(pins) != 2:
         return None
-    return np.asarray(np.cross(along, pins[1] - pins[0]), dtype=np.float64)
+    across = np.asarray(np.cross(along, pins[1] - pins[0]), dtype=np.float64)
+    return across if np.linalg.norm(across) > 1e-6 else None
 
 
 def _common_direction(axes: list[SharedAxis]) -> Floats | None:
