@@ -26,6 +26,7 @@ from yellowiron.specs.values.cross_check import second_reading, stands_in
 from yellowiron.specs.values.decision import Column, Sheets, decide, missing, placed, quantity_words, unreadable
 from yellowiron.specs.values.matching import match
 from yellowiron.specs.values.only_unit import in_only_unit
+from yellowiron.specs.values.qualifiers import of_configuration
 from yellowiron.specs.values.requested import asked
 from yellowiron.specs.values.tolerances import PICTURED
 from yellowiron.specs.values.values_in_labels import in_label
@@ -209,7 +210,7 @@ def _claimed(sheets: Sequence[Sheet], config: str) -> _Claimed:
         sisters = of_sisters(sheet.titles, config)
         read = [s for s in sheet.statements if s.page not in other and (s.column or s.page not in sisters)]
         every = claims_of(read, sheet.style)
-        meant = configured([*every, *in_only_unit(every)], config)
+        meant = configured(of_configuration([*every, *in_only_unit(every)], config), config)
         for claim in meant:
             (recognised if claim.statement.guessed else printed).append(claim)
         kept = {claim.statement for claim in meant}

@@ -371,3 +371,16 @@ def without_key(label: str) -> str:
         label,
     )
     return match.group(1) if match else label
+
+
+def without_value_of_label(statement: Statement) -> tuple[str, str]:
+    """A statement's label and text; the quantity that a narrow gap left at the label's end stands before the value that
+    says it again in the other system: "Bucket Cylinder – Stroke 1156 mm | 46 in"."""
+    own, beside = read(statement.label), read(statement.text)
+    if not own or not beside or own[-1].condition:
+        return statement.label, statement.text
+    first, second = own[-1].numbers[0], beside[0].numbers[0]
+    ends = not statement.label[first.end :].strip() and second.start == 0 and first.dimension == second.dimension
+    if not ends or {q.printed.system for q in (first, second) if q.printed} != {"metric", "imperial"}:
+        return statement.label, statement.text
+    return statement.label[: first.start].strip(), f"{statement.label[first.start :]} ({statement.text})"

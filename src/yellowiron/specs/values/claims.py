@@ -13,7 +13,7 @@ from yellowiron.specs.language.numbers import Reading, read
 from yellowiron.specs.language.quantities import FEET_DASH, FEET_INCHES, Quantity, same
 from yellowiron.specs.language.units import printed_unit
 from yellowiron.specs.language.vocabulary import tokens
-from yellowiron.specs.layout.statement import COUNTED, GRAVITATIONAL, Statement
+from yellowiron.specs.layout.statement import COUNTED, GRAVITATIONAL, Statement, without_value_of_label
 from yellowiron.specs.values.enumerations import COUNTED_PARTS, alternatives, enumerated, opposed, standard_of_two
 
 _TIMES = re.compile(r"(?<![\d.,])([2-9])\s*[x×](?![\w])|[x×]\s*([2-9])(?![\d.,])", re.IGNORECASE)
@@ -213,10 +213,11 @@ def without_case(text: str) -> str:
 
 
 def _expand(statement: Statement, style: DecimalStyle) -> Iterator[Claim]:
-    text, unit = spelled_out(GRAVITATIONAL.sub("", statement.text), statement.unit)
+    whole, text = without_value_of_label(statement)
+    text, unit = spelled_out(GRAVITATIONAL.sub("", text), statement.unit)
     every = _without_chart(read(text, unit=unit, style=style))
     readings = [r for r in every if not r.condition]
-    label = _without_conditions(statement.label)
+    label = _without_conditions(whole)
     yield from _at_radius(statement, label, every)
     kept: list[Reading] = []
     for reading in readings:

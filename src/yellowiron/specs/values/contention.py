@@ -7,6 +7,7 @@ from collections.abc import Mapping, Sequence
 from dataclasses import dataclass, replace
 
 from yellowiron.model.template import Wanted
+from yellowiron.specs.language.numbers import read
 from yellowiron.specs.language.vocabulary import tokens
 from yellowiron.specs.values.claims import Claim, names_model
 from yellowiron.specs.values.requested import usual
@@ -81,6 +82,35 @@ def add_twins(found: dict[str, list[Match]], claims: Sequence[Claim]) -> None:
         own += [replace(m, claim=claim) for key, m in first.items() for claim in bare.get(key, ())]
 
 
+_IMPLEMENTS = {"blade", "bucket", "ripper"}
+"""What makers describe in a table of its own, as they do the machine."""
+_COMPANY = 2
+"""So many rows of a table that are a part's, without saying so, make what its other rows leave unsaid that part's."""
+
+
+def doubted_by_company(found: Mapping[str, list[Match]]) -> None:
+    """Doubts what a row calls by its measure alone ("Height") and what is the whole machine's, where other rows of its
+    column are one part's that they do not name either: the table is that part's."""
+    rows: dict[tuple[object, ...], set[tuple[str, int]]] = {}
+    for one in (m for own in found.values() for m in own):
+        said = set(tokens(one.claim.words))
+        for part in tokens(one.wanted.name):
+            if part in _IMPLEMENTS - said:
+                rows.setdefault(_table_of(one), set()).add((part, one.claim.statement.row))
+    for own in found.values():
+        for index, one in enumerate(own):
+            if not {"overall"} & set(tokens(one.wanted.name)) or len(tokens(one.claim.words)) != 1:
+                continue
+            parts = [part for part, _ in rows.get(_table_of(one), ())]
+            if parts and parts.count(part := max(sorted(set(parts)), key=parts.count)) >= _COMPANY:
+                own[index] = replace(one, rest=(*one.rest, part))
+
+
+def _table_of(found: Match) -> tuple[object, ...]:
+    statement = found.claim.statement
+    return (statement.sheet, statement.page, statement.section, statement.column)
+
+
 def without_shared_headings(matches: list[Match]) -> list[Match]:
     """The matches without those of values that have no name but a heading which stands over other ones, too."""
     under: dict[tuple[object, ...], set[tuple[float, ...]]] = {}
@@ -115,3 +145,25 @@ def ends_told_apart(found: dict[str, list[Match]], wanted: Sequence[Wanted]) -> 
             if at in both:
                 found[one.wanted.name].append(one)
     return found
+
+
+_CHART = re.compile(r"\blift(?:ing)? capacit(?:y|ies)\b", re.IGNORECASE)
+"""A heading over a chart of loads."""
+_LOADED = {"lift", "load", "radius", "capacity"}
+"""What a value is called that such a chart may give itself."""
+
+
+_SENTENCE = 8
+"""So many words over a value are a sentence, which advertises one machine of a series."""
+
+
+def of_another_place(found: Match) -> str:
+    """Why a value is in doubt that stands over a chart of loads and says what the chart holds for, or under a sentence
+    that praises it."""
+    section, alone = found.claim.statement.section, not found.claim.statement.column
+    charted = _CHART.search(section) is not None and not read(section)
+    if charted and found.wanted.dimension != "mass" and not _LOADED & set(tokens(found.wanted.name)):
+        return f"the chart '{section}' holds for it"
+    if alone and len(section.split()) >= _SENTENCE:
+        return f"it stands under '{section}'"
+    return ""

@@ -15,7 +15,7 @@ from yellowiron.specs.language.vocabulary import tokens
 from yellowiron.specs.layout.statement import Statement, words_beside_numbers
 from yellowiron.specs.pages.strokes import Box
 from yellowiron.specs.values.claims import Claim, configured_by, names_model, split_phrases, without_case
-from yellowiron.specs.values.contention import Match
+from yellowiron.specs.values.contention import Match, of_another_place
 from yellowiron.specs.values.requested import check_hint, hint_for, usual
 from yellowiron.specs.values.series import called, extremes, first_of_two
 from yellowiron.specs.values.stated_configuration import Stated
@@ -84,7 +84,7 @@ def decide(wanted: Wanted, matches: Sequence[Match], sheets: Sheets, config: str
         doubt = doubt or "its label goes on elsewhere"
     if any(map(is_measures, top.claim.statement.column)):
         doubt = doubt or "measures of a drawing stand over it"
-    doubt = doubt or counted or _of_others(group, sheets, config)
+    doubt = doubt or counted or _of_others(group, sheets, config) or of_another_place(top)
     if top.claim.ranged:
         doubt = doubt or "the sheet prints a range"
     value = quantity.si_value
@@ -356,7 +356,7 @@ def _without_quantities(text: str) -> str:
 
 def _config_words(claim: Claim, sheets: Sheets) -> set[str]:
     statement = claim.statement
-    texts = [*statement.column, *statement.variant, *statement.context, statement.section, claim.words]
+    texts = [*statement.column, *statement.variant, *statement.context, statement.section, claim.words, statement.label]
     words = {t for text in texts for t in tokens(text)}
     for text in (*statement.column, *statement.variant):
         words |= quantity_words(text)

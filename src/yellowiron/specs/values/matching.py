@@ -30,6 +30,7 @@ from yellowiron.specs.values.claims import Claim, names_model
 from yellowiron.specs.values.contention import (
     Match,
     add_twins,
+    doubted_by_company,
     ends_told_apart,
     is_gear,
     is_possible,
@@ -93,6 +94,7 @@ def match(claims: Sequence[Claim], wanted: Sequence[Wanted]) -> dict[str, list[M
             found[one.wanted.name].append(replace(one, score=one.score - _UNSAID) if unsaid else one)
     add_twins(found, claims)
     without_lone_gears(found)
+    doubted_by_company(found)
     return ends_told_apart({name: without_shared_headings(own) for name, own in found.items()}, wanted)
 
 
@@ -264,6 +266,8 @@ def _match(asked_for: _Asked, claim: Claim, said: _Said) -> Match | None:
     label, head, context, section = said.label, said.head, said.context, said.section
     if not (label | head | context | section) & asked_for.words:
         return None
+    if not claim.statement.label and not claim.statement.running and read(wanted.name):
+        return None  # "2240 mm Level Bottom" is the label of another value
     supported = _supports(asked_for, section)
     headings = [*said.contexts, *([] if section <= GENERAL or len(section) > _TITLE else [section])]
     above = [words for words in headings if not _supports(asked_for, words)]
@@ -308,6 +312,10 @@ def _match(asked_for: _Asked, claim: Claim, said: _Said) -> Match | None:
     worded = frozenset[str]().union(*(words for words in said.naming if not any(map(_is_number, words))))
     if ((label | context | section | worded) - explained) & REVERSING:  # the head "VS 135" is a model
         return None
+    leading = next((words for text, words in zip(claim.statement.context, said.contexts, strict=False)
+                    if _LEADS.search(text)), frozenset[str]()) & _MEASURES  # fmt: skip
+    if leading and not (label | head) & _MEASURES and asked_for.name & _MEASURES and not leading & asked_for.name:
+        return None  # "add to basic tractor length: | Ripper raised" is no height
     asked = {t for p in (wanted.name, best) for t in tokens(p)}
     if any(_contradicts(group - explained, asked - group) for group in (label, head, context, section)):
         return None

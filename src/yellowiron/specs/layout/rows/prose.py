@@ -163,6 +163,8 @@ def read_paragraph(page: int, lines: Sequence[TextLine], first_row: int, section
             label = label or (_behind(sentence[stop:own]) if opens else "")
             if label and (said := re.match(r"[\s)]*\(([^()\d]+)\)", sentence[stop:])):  # "298 kW (gross)"
                 label = f"{label} {said.group(1)}"
+            if label and (of := re.match(r"\s+of\s+(?=[^\W\d])", sentence[stop:])):  # "8.9 m of dig depth"
+                label = f"{label} {_behind(sentence[stop + of.end() : own])}"
             told = bool(label) or (opens and not offset)
             if (
                 told
