@@ -10,7 +10,7 @@ from yellowiron.model.template import Template, choose
 
 BLADE = {("pat", "single"): 3, ("push_arms", "single"): 2, ("push_arms", "dual"): 3}
 """(blade, tilt) → freedoms of the blade."""
-RIPPER = {"none": 0, "radial": 1, "parallel": 2}
+RIPPER = {"none": 0, "radial": 1, "fixed_parallel": 1, "parallel": 2}
 
 
 @pytest.fixture(scope="module")
@@ -36,7 +36,7 @@ def test_every_blade_and_ripper_moves_as_it_is_driven(report: LintReport) -> Non
         if choices["track_frames"] == "fixed":
             assert [g.spatial for g in mobility.groups][-1] == (choices["ripper"] == "none"), choices
         seen.add((choices["blade"], choices["tilt"], choices["ripper"], choices["track_frames"]))
-    assert len(seen) == 18
+    assert len(seen) == 24
     assert {f.severity for f in report.findings} == {"info"}
 
 
@@ -53,7 +53,7 @@ def test_an_angling_cylinder_follows_the_other(dozer: Template) -> None:
     assert (left.passive, left.sign, right.passive) == (False, -1, True)
 
 
-@pytest.mark.parametrize("ripper", ["none", "parallel", "radial"])
+@pytest.mark.parametrize("ripper", ["none", "parallel", "fixed_parallel", "radial"])
 def test_a_ripper_brings_its_own_site_and_measurements(dozer: Template, ripper: str) -> None:
     chosen = choose(dozer, {"ripper": ripper})
     there = ripper != "none"

@@ -100,7 +100,7 @@ def _site(
     if "inside_from" in rule:
         return _inside_site(entry, frame, spanning, placement)
     edge = _edge_site(entry, frame, spanning, template, placement, findings)
-    return _at_tip(edge, frame, placement) if edge is not None and rule.get("tip") else edge
+    return _at_tip(edge, frame, placement, low=rule["tip"] == "low") if edge and rule.get("tip") else edge
 
 
 def _upright_site(entry: SiteTemplate, frame: JointFrame) -> Site | None:
@@ -216,11 +216,14 @@ def _widest(points: Floats, normals: Floats, areas: Floats, chosen: NDArray[np.b
     return own[widest], float(offsets[widest])
 
 
-def _at_tip(edge: Site, frame: JointFrame, placement: Placement) -> Site:
+def _at_tip(edge: Site, frame: JointFrame, placement: Placement, *, low: bool) -> Site:
     """The edge's site moved to the body's points farthest from the joint's axis (the teeth, whatever part they are
-    of), in their middle along it."""
+    of), in their middle along it; `low`: of those below it as drawn, where there are any (a ripper's shanks, whose
+    carrier may reach farther up)."""
     line = Axis(frame.anchor, frame.axis)
     points = placement.points_of(placement.rows_of_body(edge.body))
+    below = points[:, 2] < frame.anchor[2]
+    points = points[below] if low and below.any() else points
     distance = line.distance(points)
     tip = _one_edge(points[distance > distance.max() - _EDGE], line)
     along = line.along(tip)
