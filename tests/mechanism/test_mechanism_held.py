@@ -112,6 +112,24 @@ def test_boom_lengths_and_angles_are_measured_as_it_is_pinned(pinned: Aligned, d
     assert short["Boom Angle Maximum"] == pytest.approx(long["Boom Angle Maximum"], abs=1e-9)
 
 
+@pytest.mark.parametrize("count", [5, 6])
+def test_booms_of_five_and_six_sections_are_pinned(count: int) -> None:
+    choices = {"telescoping": "pinned", "pinned_sections": {5: "five", 6: "six"}[count]}
+    aligned = _aligned(crane(30 + count, sections=count, twin=False, hook=True, pinned=True), choices)
+    names = ("second_section", "third_section", "fourth_section", "fifth_section", "sixth_section")[: count - 1]
+    built = {place: _held(aligned, dict.fromkeys(names, place), _sheet()) for place in ("drawn", "46", "100")}
+    for mechanism in built.values():
+        assert mechanism.mobility is not None and mechanism.mobility.computed == mechanism.mobility.expected == 20
+    apart = {p: _place(m, "boom_head") - _place(m, "boom_foot") for p, m in built.items()}
+    way = np.asarray(built["100"].joint("second_section_joint").axis)
+    assert apart["100"] - apart["drawn"] == pytest.approx((count - 1) * STROKE * way, abs=1e-9)
+    assert apart["46"] - apart["drawn"] == pytest.approx(0.46 * (count - 1) * STROKE * way, abs=1e-9)
+    measured = {p: {m.name: m.model for m in kinematics.measure(mechanism)} for p, mechanism in built.items()}
+    assert "Boom Length Retracted" in measured["drawn"] and "Boom Length Extended" in measured["100"]
+    assert not {"Boom Length Retracted", "Boom Length Extended"} & measured["46"].keys()
+    assert measured["100"]["Boom Length Extended"] == pytest.approx(float(np.linalg.norm(apart["100"])), abs=1e-9)
+
+
 def test_what_nothing_says_is_asked_for(pinned: Aligned) -> None:
     with pytest.raises(MechanismError, match="46 % of Telescoping Cylinder Stroke") as found:
         _held(pinned, {"second_section": "46"})

@@ -111,14 +111,15 @@ class JointTemplate:
     follows: Follows | None = None
     direction: Direction | None = None
     positions: Mapping[str, float | str] = field(default_factory=dict, hash=False)
+    position_variant: str = ""
     at: float | str | None = None
     rest: float | str | None = None
     rest_when: Choices = field(default_factory=dict)
 
     @property
     def chosen_by(self) -> str:
-        """The variant that says in which of its positions it is held."""
-        return self.name.removesuffix("_joint")
+        """The variant that says in which of its positions it is held: that of its name, if it states no other."""
+        return self.position_variant or self.name.removesuffix("_joint")
 
 
 AS_DRAWN = "drawn"

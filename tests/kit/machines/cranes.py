@@ -1,5 +1,5 @@
-"""Parametric mobile cranes straight as `Assembly` objects, with the truth: a boom of two to four sections that slews,
-one luffing cylinder or two, a hook on two to eight falls or none, four outriggers drawn out by any share.
+"""Parametric mobile cranes straight as `Assembly` objects, with the truth: a boom of two to four sections (to six,
+where they are pinned) that slews, one luffing cylinder or two, a hook on two to eight falls or none, four outriggers drawn out by any share.
 
 Every dimension is drawn from a seed, by none of the example's code; simplified as the synthetic loaders are.
 """
@@ -21,6 +21,8 @@ HALF, HIGH, WALL, LOOSE = 0.14, 0.19, 0.012, 0.005
 BODIES = {
     2: ["boom", "inner_boom"], 3: ["boom", "middle_boom", "inner_boom"],
     4: ["boom", "middle_boom", "second_middle_boom", "inner_boom"],
+    5: ["boom", "middle_boom", "second_middle_boom", "third_middle_boom", "inner_boom"],
+    6: ["boom", "middle_boom", "second_middle_boom", "third_middle_boom", "fourth_middle_boom", "inner_boom"],
 }  # fmt: skip
 JIB = 1.6
 """How far a jib reaches beyond the pin of the head's sheaves."""
