@@ -24,10 +24,12 @@ def test_it_moves_as_it_should(template: Template) -> None:
         # unless it follows; the hook's three ways to swing and its rope. The lint takes two further axles. Sections
         # that are pinned do not move, nor does a jib.
         expected = 20 + (found.choices["steering_mode"] == "front") + 4 * (found.choices["hoist"] == "hook")
+        expected += 4 * (found.choices["jib_hook"] == "hook")
         expected -= found.choices["telescoping"] == "pinned"
         assert (found.computed, found.expected) == (expected, expected), found.choices
     # 108 without positions, three times as many with a jib's; 108 with pinned sections, as drawn and in three positions.
-    assert len(report.mobility) == 4 * 108 + 8 * 108
+    # Those with a jib have a hook on it, or none.
+    assert len(report.mobility) == 4 * 108 + 8 * 108 + 3 * 108 + 4 * 108
 
 
 def test_pinned_sections_are_held_at_shares_of_a_stroke(template: Template) -> None:

@@ -185,3 +185,32 @@ def test_a_jib_is_pinned_at_an_offset(jib: Aligned, offset: int) -> None:
 def test_nameless_every_part_is_in_its_body(seed: int, choices: dict[str, str]) -> None:
     machine = crane(seed, sections=4, hook=True, pinned="jib" not in choices, jib="jib" in choices)
     assert found_whole(machine, "mobile_crane", seed, triangles=False, choices=choices).choices["sections"] == "four"
+
+
+@pytest.fixture(scope="module")
+def hooked() -> Aligned:
+    machine = crane(26, sections=3, twin=False, hook=True, jib="hook")
+    return _aligned(machine, {"jib": "pinned", "jib_hook": "hook"})
+
+
+@pytest.mark.parametrize("offset", ["drawn", "20", "40"])
+def test_a_jib_has_a_hook_of_its_own_that_hangs_straight_down(hooked: Aligned, offset: str) -> None:
+    drawn, built = _held(hooked), _held(hooked, {"jib_offset": offset})
+    assert built.mobility is not None and built.mobility.computed == built.mobility.expected
+    winches = {a.name: a for a in built.actuators if a.falls}
+    assert {name: a.falls for name, a in winches.items()} == {"hoist": 4, "jib_hoist": 1}
+    ball, slide = built.joint("jib2jib_hoist_rope_joint"), built.joint("jib_hoist_rope2jib_hook_block_joint")
+    assert ball.free and np.asarray(slide.axis) == pytest.approx([0.0, 0.0, -1.0], abs=1e-9)
+    # As long as it was drawn, and below the jib's new end.
+    lengths = [
+        np.subtract(m.body("jib_hook_block").center_of_mass, m.joint("jib2jib_hoist_rope_joint").anchor)
+        for m in (drawn, built)
+    ]
+    assert lengths[1] == pytest.approx(lengths[0], abs=1e-9)
+    if offset != "drawn":
+        assert ball.anchor[2] < drawn.joint("jib2jib_hoist_rope_joint").anchor[2] - 0.1
+
+
+def test_nameless_a_jib_s_hook_is_not_the_boom_s() -> None:
+    machine = crane(27, sections=4, hook=True, jib="hook")
+    found_whole(machine, "mobile_crane", 27, triangles=False, choices={"jib": "pinned", "jib_hook": "hook"})

@@ -15,7 +15,7 @@ from yellowiron.model.rows import expand, split_index
 from yellowiron.model.template import AS_DRAWN, Template, choose, holds, in_position
 from yellowiron.support.graphs import blocks
 
-MOST_COMBINATIONS = 2048
+MOST_COMBINATIONS = 3000
 """Sets of choices that are looked at; a template with more says so."""
 _ORDER = ("error", "warning", "info")
 

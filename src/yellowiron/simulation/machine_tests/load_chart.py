@@ -39,6 +39,8 @@ class ChartLoad:
     load: float
 
 
+_AT_HEAD = 0.01
+"""Metres from the head's site to a ball that is there."""
 _DIRECTIONS = 24
 """In how many directions the weakest is looked for. A crane tips first over the middle of one of its sides, and 15° from
 there it bears 4 to 9 % more."""
@@ -175,8 +177,13 @@ def _other_boom(bench: Bench, row: ChartLoad) -> str:
 
 
 def _hanging(mechanism: Mechanism) -> float:
-    """Mass of what hangs on the boom's head: a chart's loads have it in them."""
-    below = {j.body1 for j in mechanism.joints if j.free and j.type == "spherical"}
+    """Mass of what hangs on the boom's head (not on a jib's): a chart's loads have it in them."""
+    head = next(site.position for site in mechanism.sites if site.name == HEAD)
+    below = {
+        j.body1
+        for j in mechanism.joints
+        if j.free and j.type == "spherical" and math.dist(j.anchor, head) < _AT_HEAD
+    }
     for joint in mechanism.joints:
         below |= {joint.body1} if joint.body0 in below else set()
     return sum(b.mass for b in mechanism.bodies if b.name in below)
