@@ -17,6 +17,7 @@ from yellowiron.mechanism.tolerances import PARALLEL
 from yellowiron.model.finding import Finding
 from yellowiron.model.geometry import Floats
 from yellowiron.model.mechanism import Site
+from yellowiron.model.rows import member
 from yellowiron.model.template import SiteTemplate, Template
 from yellowiron.support.vectors import clean_triple
 
@@ -115,12 +116,21 @@ def _upright_site(entry: SiteTemplate, frame: JointFrame) -> Site | None:
 
 
 def _middle_site(entry: SiteTemplate, placement: Placement) -> Site | None:
-    """The middle of the box around a role's parts."""
-    points = placement.points_of(placement.rows_of_role(str(entry.rule["middle_of"])))
+    """The middle of the box around a role's parts, or around the last part of the row `if_high` where they stand higher
+    above the ground than half their height: a track with its sprocket on top ends at the last wheel on the ground."""
+    name = str(entry.rule["middle_of"])
+    points = placement.points_of(placement.rows_of_role(name))
+    row = str(entry.rule.get("if_high", ""))
+    if row and len(points) and float(points[:, 2].min()) > 0.5 * float(np.ptp(points[:, 2])):
+        number = 1
+        while placement.rows_of_role(member(row, number + 1)):
+            number += 1
+        last = placement.points_of(placement.rows_of_role(member(row, number)))
+        name, points = (member(row, number), last) if len(last) else (name, points)
     if not len(points):
         return None
     middle = 0.5 * (points.min(axis=0) + points.max(axis=0))
-    return Site(entry.name, entry.body, clean_triple(middle), source=f"middle of {entry.rule['middle_of']}")
+    return Site(entry.name, entry.body, clean_triple(middle), source=f"middle of {name}")
 
 
 def _floor_site(entry: SiteTemplate, placement: Placement) -> Site | None:
