@@ -27,8 +27,8 @@ def test_it_moves_as_it_should(template: Template) -> None:
         expected += 4 * (found.choices["jib_hook"] == "hook")
         expected -= found.choices["telescoping"] == "pinned"
         assert (found.computed, found.expected) == (expected, expected), found.choices
-    # 108 without positions, three times as many with a jib's; 108 with pinned sections, as drawn and in three positions.
-    # Those with a jib have a hook on it, or none.
+    # 108 without positions, three times as many with a jib's; 108 with pinned sections, as drawn and in three
+    # positions. Those with a jib have a hook on it, or none.
     assert len(report.mobility) == 4 * 108 + 8 * 108 + 3 * 108 + 4 * 108
 
 

@@ -1,5 +1,5 @@
-"""A dozer's parallelogram rippers, adjustable (two freedoms) and fixed (one): their poses against a solution by circles,
-what is measured of them."""
+"""A dozer's parallelogram rippers, adjustable (two freedoms) and fixed (one): their poses against a solution by
+circles, what is measured of them."""
 
 from __future__ import annotations
 

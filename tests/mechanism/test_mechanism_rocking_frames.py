@@ -133,7 +133,9 @@ def test_a_high_sprocket_drives_its_shoes_and_the_rear_idler_rolls_on_the_track_
     built = solve(template, assembly, found, Specifications(), Documents(), choices).mechanism
     assert built.mobility is not None and built.mobility.computed == built.mobility.expected
     for side, way in (("l", "left"), ("r", "right")):
-        sprocket, idler = (built.joint(f"{on}_{side}_joint") for on in ("main_frame2sprocket", f"roller_frame_{side}2idler"))
+        sprocket, idler = (
+            built.joint(f"{on}_{side}_joint") for on in ("main_frame2sprocket", f"roller_frame_{side}2idler")
+        )
         rollers = [j for j in built.joints if j.name.startswith(f"roller_frame_{side}2track_roller_{side}_joint_")]
         rear = min(rollers, key=lambda joint: joint.anchor[0])
         assert sprocket.drive is not None and sprocket.anchor[2] > 2.0 * idler.anchor[2]

@@ -46,7 +46,7 @@ def test_it_tips_where_statics_says(file: Path, engine: str) -> None:
 
 @pytest.mark.parametrize("engine", ["mujoco", pytest.param("physx", marks=installed("physx"))])
 def test_over_its_side_it_tips_about_the_middle_of_a_track(file: Path, engine: str) -> None:
-    """It is weakest there. Statics had it stand on its shoes' outer edges, which touch nothing in the file: 20 % more."""
+    """It is weakest there. Statics had it stand on its shoes' outer edges, which touch nothing in the file."""
     row = ChartLoad(10.0, 6.0, 20_000.0)
     (weakest,) = chart_stability(file, [row], slewed=None)
     assert abs(weakest.slewed) == pytest.approx(math.pi / 2)

@@ -80,16 +80,16 @@ def legal_start(mechanism: Mechanism, held: Mapping[str, float] | None = None) -
 def _hung(mechanism: Mechanism, moves: Mapping[str, Floats]) -> dict[str, Floats]:
     """The bodies' displacements (4, 4), those of what hangs straight down on a free ball, and on nothing else, without
     the turn of what it hangs on: a hook on a jib that is pinned below its boom hangs straight down."""
-    moved, masses = dict(moves), {b.name: b for b in mechanism.bodies}
+    moved, bodies = dict(moves), {b.name: b for b in mechanism.bodies}
     for ball in (j for j in mechanism.joints if j.free and j.type == "spherical" and not j.cut):
         below = {ball.body1}
         while more := {j.body1 for j in mechanism.joints if not j.cut and j.body0 in below} - below:
             below |= more
-        outside = [j for j in mechanism.joints if j is not ball and ({j.body0, j.body1} & below) and {j.body0, j.body1} - below]
-        if outside or not below <= moved.keys():
+        others = ({j.body0, j.body1} for j in mechanism.joints if j is not ball)
+        if any(ends & below and ends - below for ends in others) or not below <= moved.keys():
             continue
-        middle = np.average([masses[b].center_of_mass for b in sorted(below)], axis=0,
-                            weights=[masses[b].mass for b in sorted(below)])  # fmt: skip
+        hanging = [bodies[name] for name in sorted(below)]
+        middle = np.average([b.center_of_mass for b in hanging], axis=0, weights=[b.mass for b in hanging])
         down = np.subtract(middle, ball.anchor)
         if -down[2] < HANGING * float(np.linalg.norm(down)):
             continue

@@ -1,5 +1,6 @@
 """Parametric mobile cranes straight as `Assembly` objects, with the truth: a boom of two to four sections (to six,
-where they are pinned) that slews, one luffing cylinder or two, a hook on two to eight falls or none, four outriggers drawn out by any share.
+where they are pinned) that slews, one luffing cylinder or two, a hook on two to eight falls or none, four outriggers
+drawn out by any share.
 
 Every dimension is drawn from a seed, by none of the example's code; simplified as the synthetic loaders are.
 """

@@ -575,15 +575,12 @@ class Dozer(Digger):
                        (end[0] - 0.2 + e, across + 0.04, top))  # fmt: skip
         m.pose = np.eye(4)
 
-
     def upper_link(self, side: int, y: float) -> None:
         """A bar beside a plate of the frame and one of the carrier, on a pin through each."""
         e, t, gap, at, body = self.e / self.s, self.t / self.s, self.gap / self.s, RIPPER, "ripper_upper_link"
         top, end = at["top"], at["end"]
-        plates = (("main_frame", "top", [(*top, self.wide), (-1.56 + e, top[1] - 0.07, 0), (-1.56 + e, top[1] + 0.07, 0)]),
-                  ("ripper_beam", "end", [(*end, self.wide), (end[0] - 0.1, end[1] - 0.07, 0),
-                                          (end[0] - 0.1, end[1] + 0.07, 0)]))  # fmt: skip
-        for carrier, pin, outline in plates:
+        for carrier, pin, back in (("main_frame", "top", -1.56 + e), ("ripper_beam", "end", end[0] - 0.1)):
+            outline = [(*at[pin], self.wide), (back, at[pin][1] - 0.07, 0), (back, at[pin][1] + 0.07, 0)]
             self.wall("ripper upper hinge", carrier, side * y, outline, at[pin])
             role = "ripper_upper_link_pin" if pin == "top" else "ripper_upper_link_beam_pin"
             self.level_pin(role, carrier, at[pin], side * (y + 0.5 * (t + gap)), 1.2 * t)
@@ -600,7 +597,8 @@ def dozer(
     high: bool | None = None, ripper: bool | str | None = None, embedded: bool = False,
 ) -> Machine:  # fmt: skip
     """The machine of a seed, in its own frame, in drawing order, with names; what is not stated is the seed's. `blade`:
-    `pat` (on a C-frame) or `push_arms`; `ripper`: `radial` (what a seed draws, and `True`), `parallel`, `fixed_parallel` or none."""
+    `pat` (on a C-frame) or `push_arms`; `ripper`: `radial` (what a seed draws, and `True`), `parallel`,
+    `fixed_parallel` or none."""
     drawn = np.random.default_rng([seed, 61]).random(5)
     arms = bool(drawn[0] < 0.5) if blade is None else blade == "push_arms"
     return Dozer(

@@ -289,7 +289,7 @@ def _grow(
             return None, "the simulation broke down"
         if _lean(rig, upright) > LEAN:
             risen = [name for name, height in rig.heights().items() if height > heights[name] + 0.5 * LEAN]
-            ends = _watched(rig, upright, lambda held=force: press(held))
+            ends = _watched(rig, upright, force, press)
             if ends == "over":
                 return force, f"{', '.join(risen)} left the ground" if risen else "the machine tipped"
             if ends == "stands":
@@ -305,14 +305,16 @@ def _lean(rig: Rig, upright: Floats) -> float:
     return math.acos(min(1.0, float(rig.upright() @ upright)))
 
 
-def _watched(rig: Rig, upright: Floats, hold: Callable[[], None]) -> Literal["over", "back", "stands"]:
+def _watched(
+    rig: Rig, upright: Floats, force: float, press: Callable[[float], None]
+) -> Literal["over", "back", "stands"]:
     """What becomes of a leaning machine while a force is held: it goes over, swings back upright, or stands with a
     lean."""
     leans: list[float] = []
     look = max(1, round(_LOOK / rig.timestep))
     still = max(1, round(_STILL / (look * rig.timestep)))
     for number in range(rig.steps(_WATCHED)):
-        hold()
+        press(force)
         if number % look:
             continue
         leans.append(_lean(rig, upright))

@@ -42,7 +42,7 @@ class ChartLoad:
 _AT_HEAD = 0.01
 """Metres from the head's site to a ball that is there."""
 _DIRECTIONS = 24
-"""In how many directions the weakest is looked for. A crane tips first over the middle of one of its sides, and 15° from
+"""In how many directions the weakest is looked for. A crane tips first over the middle of one of its sides; 15° from
 there it bears 4 to 9 % more."""
 
 
@@ -180,9 +180,7 @@ def _hanging(mechanism: Mechanism) -> float:
     """Mass of what hangs on the boom's head (not on a jib's): a chart's loads have it in them."""
     head = next(site.position for site in mechanism.sites if site.name == HEAD)
     below = {
-        j.body1
-        for j in mechanism.joints
-        if j.free and j.type == "spherical" and math.dist(j.anchor, head) < _AT_HEAD
+        j.body1 for j in mechanism.joints if j.free and j.type == "spherical" and math.dist(j.anchor, head) < _AT_HEAD
     }
     for joint in mechanism.joints:
         below |= {joint.body1} if joint.body0 in below else set()
