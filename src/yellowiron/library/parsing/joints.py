@@ -161,9 +161,11 @@ def _positions(document: Document, name: str, entry: Mapping[str, Any], kind: st
 def positions_chosen(joints: Sequence[JointTemplate]) -> tuple[Variant, ...]:
     """The variants by which a person says in which of its positions a joint is held. Joints that are there under
     different choices may share one."""
-    held = {j.chosen_by: (AS_DRAWN, *dict.fromkeys(p for k in joints if k.chosen_by == j.chosen_by for p in k.positions))
-            for j in joints if j.positions}  # fmt: skip
-    return tuple(Variant(name, places, AS_DRAWN) for name, places in held.items())
+    held: dict[str, dict[str, None]] = {}
+    for joint in joints:
+        if joint.positions:
+            held.setdefault(joint.chosen_by, {AS_DRAWN: None}).update(dict.fromkeys(joint.positions))
+    return tuple(Variant(name, tuple(places), AS_DRAWN) for name, places in held.items())
 
 
 def resolve_leaders(joints: Sequence[JointTemplate], at: Callable[..., str]) -> tuple[JointTemplate, ...]:
