@@ -476,9 +476,8 @@ def choose(template: Template, choices: Mapping[str, str]) -> Template:
 
 def _held(joint: JointTemplate, chosen: Mapping[str, str]) -> JointTemplate:
     """A joint of several positions in the one that is chosen; any other as it is."""
-    if not joint.positions:
-        return joint
-    return replace(joint, at=joint.positions.get(chosen.get(joint.chosen_by, AS_DRAWN), 0.0), positions={})
+    at = joint.positions.get(chosen.get(joint.chosen_by, AS_DRAWN), 0.0)
+    return replace(joint, at=at, positions={}) if joint.positions else joint
 
 
 def _unsprung(joint: JointTemplate, chosen: Mapping[str, str]) -> JointTemplate:
