@@ -10,7 +10,7 @@ from yellowiron.model.template import Template, choose
 
 BLADE = {("pat", "single"): 3, ("push_arms", "single"): 2, ("push_arms", "dual"): 3}
 """(blade, tilt) → freedoms of the blade."""
-RIPPER = {"none": 0, "radial": 1, "fixed_parallel": 1, "parallel": 2}
+RIPPER = {"none": 0, "radial": 1, "parallel": 2}
 
 
 @pytest.fixture(scope="module")
@@ -30,12 +30,14 @@ def test_every_blade_and_ripper_moves_as_it_is_driven(report: LintReport) -> Non
         blade = BLADE[choices["blade"], choices["tilt"]]
         # An equaliser bar turns, and nothing drives it.
         freedom = blade + RIPPER[choices["ripper"]] + (choices["track_frames"] == "oscillating")
+        # Plates for tip cylinders.
+        freedom -= choices["ripper_links"] == "plates"
         if choices["tracks"] == "fixed":
             assert (mobility.computed, mobility.expected) == (freedom, freedom), choices
         assert not any(g.undetermined for g in mobility.groups) and not mobility.loose, choices
         if choices["track_frames"] == "fixed":
             assert [g.spatial for g in mobility.groups][-1] == (choices["ripper"] == "none"), choices
-        seen.add((choices["blade"], choices["tilt"], choices["ripper"], choices["track_frames"]))
+        seen.add(tuple(choices[name] for name in ("blade", "tilt", "ripper", "ripper_links", "track_frames")))
     assert len(seen) == 24
     assert {f.severity for f in report.findings} == {"info"}
 
@@ -53,7 +55,7 @@ def test_an_angling_cylinder_follows_the_other(dozer: Template) -> None:
     assert (left.passive, left.sign, right.passive) == (False, -1, True)
 
 
-@pytest.mark.parametrize("ripper", ["none", "parallel", "fixed_parallel", "radial"])
+@pytest.mark.parametrize("ripper", ["none", "parallel", "radial"])
 def test_a_ripper_brings_its_own_site_and_measurements(dozer: Template, ripper: str) -> None:
     chosen = choose(dozer, {"ripper": ripper})
     there = ripper != "none"

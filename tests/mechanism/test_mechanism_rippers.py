@@ -112,7 +112,7 @@ def test_nameless_every_part_is_in_its_body(seed: int, blade: str) -> None:
 
 @pytest.fixture(scope="module")
 def fixed() -> Mechanism:
-    choices = {**CHOICES, "ripper": "fixed_parallel"}
+    choices = {**CHOICES, "ripper_links": "plates"}
     return without(dozer(621, "pat", dual=False, high=False, ripper="fixed_parallel"), "dozer", (), choices=choices)
 
 
@@ -156,4 +156,5 @@ def test_the_tip_of_a_tall_carrier_is_its_shanks(fixed: Mechanism) -> None:
 
 def test_nameless_a_fixed_one_is_whole() -> None:
     machine = dozer(623, "pat", dual=False, high=False, ripper="fixed_parallel")
-    assert found_whole(machine, "dozer", 623, triangles=False).choices["ripper"] == "fixed_parallel"
+    choices = {"ripper_links": "plates"}
+    assert found_whole(machine, "dozer", 623, triangles=False, choices=choices).choices["ripper"] == "parallel"
