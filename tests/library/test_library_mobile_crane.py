@@ -24,10 +24,12 @@ def test_it_moves_as_it_should(template: Template) -> None:
         # unless it follows; the hook's three ways to swing and its rope. The lint takes two further axles. Sections
         # that are pinned do not move, nor does a jib.
         expected = 20 + (found.choices["steering_mode"] == "front") + 4 * (found.choices["hoist"] == "hook")
+        expected += 4 * (found.choices["jib_hook"] == "hook")
         expected -= found.choices["telescoping"] == "pinned"
         assert (found.computed, found.expected) == (expected, expected), found.choices
-    # 108 without positions, three times as many with a jib's; 36 with pinned sections, as drawn and in three positions.
-    assert len(report.mobility) == 4 * 108 + 8 * 36
+    # 108 without positions, three times as many with a jib's; 108 with pinned sections, as drawn and in three
+    # positions. Those with a jib have a hook on it, or none.
+    assert len(report.mobility) == 4 * 108 + 8 * 108 + 3 * 108 + 4 * 108
 
 
 def test_pinned_sections_are_held_at_shares_of_a_stroke(template: Template) -> None:
@@ -40,6 +42,18 @@ def test_pinned_sections_are_held_at_shares_of_a_stroke(template: Template) -> N
     assert not template.go_together({"telescoping": "pinned", "sections": "three"})
     held = choose(template, {"jib": "pinned", "jib_offset": "40"}).joint("jib_offset_joint")
     assert held.at == pytest.approx(math.radians(40.0)) and "jib" not in {r.name for r in choose(template, {}).roles}
+
+
+@pytest.mark.parametrize(("sections", "count"), [("five", 5), ("six", 6)])
+def test_a_boom_of_more_sections_is_pinned_by_the_same_words(template: Template, sections: str, count: int) -> None:
+    assert not template.go_together({"telescoping": "rope", "pinned_sections": sections})
+    names = [f"{each}_section" for each in ("second", "third", "fourth", "fifth", "sixth")[: count - 1]]
+    chosen = choose(template, {"telescoping": "pinned", "pinned_sections": sections, **dict.fromkeys(names, "46")})
+    held = [j for j in chosen.joints if j.at == "46 % of Telescoping Cylinder Stroke"]
+    assert len(held) == count - 1
+    # One after the other, from the outermost section to the one with the head.
+    assert [a for _, a in (j.parts for j in held[:-1])] == [b for b, _ in (j.parts for j in held[1:])]
+    assert (held[0].parts[0], held[-1].parts[1]) == ("boom", "inner_boom")
 
 
 @pytest.mark.parametrize(("sections", "followers"), [("two", 0), ("three", 1), ("four", 2)])

@@ -112,6 +112,24 @@ def test_boom_lengths_and_angles_are_measured_as_it_is_pinned(pinned: Aligned, d
     assert short["Boom Angle Maximum"] == pytest.approx(long["Boom Angle Maximum"], abs=1e-9)
 
 
+@pytest.mark.parametrize("count", [5, 6])
+def test_booms_of_five_and_six_sections_are_pinned(count: int) -> None:
+    choices = {"telescoping": "pinned", "pinned_sections": {5: "five", 6: "six"}[count]}
+    aligned = _aligned(crane(30 + count, sections=count, twin=False, hook=True, pinned=True), choices)
+    names = ("second_section", "third_section", "fourth_section", "fifth_section", "sixth_section")[: count - 1]
+    built = {place: _held(aligned, dict.fromkeys(names, place), _sheet()) for place in ("drawn", "46", "100")}
+    for mechanism in built.values():
+        assert mechanism.mobility is not None and mechanism.mobility.computed == mechanism.mobility.expected == 20
+    apart = {p: _place(m, "boom_head") - _place(m, "boom_foot") for p, m in built.items()}
+    way = np.asarray(built["100"].joint("second_section_joint").axis)
+    assert apart["100"] - apart["drawn"] == pytest.approx((count - 1) * STROKE * way, abs=1e-9)
+    assert apart["46"] - apart["drawn"] == pytest.approx(0.46 * (count - 1) * STROKE * way, abs=1e-9)
+    measured = {p: {m.name: m.model for m in kinematics.measure(mechanism)} for p, mechanism in built.items()}
+    assert "Boom Length Retracted" in measured["drawn"] and "Boom Length Extended" in measured["100"]
+    assert not {"Boom Length Retracted", "Boom Length Extended"} & measured["46"].keys()
+    assert measured["100"]["Boom Length Extended"] == pytest.approx(float(np.linalg.norm(apart["100"])), abs=1e-9)
+
+
 def test_what_nothing_says_is_asked_for(pinned: Aligned) -> None:
     with pytest.raises(MechanismError, match="46 % of Telescoping Cylinder Stroke") as found:
         _held(pinned, {"second_section": "46"})
@@ -167,3 +185,32 @@ def test_a_jib_is_pinned_at_an_offset(jib: Aligned, offset: int) -> None:
 def test_nameless_every_part_is_in_its_body(seed: int, choices: dict[str, str]) -> None:
     machine = crane(seed, sections=4, hook=True, pinned="jib" not in choices, jib="jib" in choices)
     assert found_whole(machine, "mobile_crane", seed, triangles=False, choices=choices).choices["sections"] == "four"
+
+
+@pytest.fixture(scope="module")
+def hooked() -> Aligned:
+    machine = crane(26, sections=3, twin=False, hook=True, jib="hook")
+    return _aligned(machine, {"jib": "pinned", "jib_hook": "hook"})
+
+
+@pytest.mark.parametrize("offset", ["drawn", "20", "40"])
+def test_a_jib_has_a_hook_of_its_own_that_hangs_straight_down(hooked: Aligned, offset: str) -> None:
+    drawn, built = _held(hooked), _held(hooked, {"jib_offset": offset})
+    assert built.mobility is not None and built.mobility.computed == built.mobility.expected
+    winches = {a.name: a for a in built.actuators if a.falls}
+    assert {name: a.falls for name, a in winches.items()} == {"hoist": 4, "jib_hoist": 1}
+    ball, slide = built.joint("jib2jib_hoist_rope_joint"), built.joint("jib_hoist_rope2jib_hook_block_joint")
+    assert ball.free and np.asarray(slide.axis) == pytest.approx([0.0, 0.0, -1.0], abs=1e-9)
+    # As long as it was drawn, and below the jib's new end.
+    lengths = [
+        np.subtract(m.body("jib_hook_block").center_of_mass, m.joint("jib2jib_hoist_rope_joint").anchor)
+        for m in (drawn, built)
+    ]
+    assert lengths[1] == pytest.approx(lengths[0], abs=1e-9)
+    if offset != "drawn":
+        assert ball.anchor[2] < drawn.joint("jib2jib_hoist_rope_joint").anchor[2] - 0.1
+
+
+def test_nameless_a_jib_s_hook_is_not_the_boom_s() -> None:
+    machine = crane(27, sections=4, hook=True, jib="hook")
+    found_whole(machine, "mobile_crane", 27, triangles=False, choices={"jib": "pinned", "jib_hook": "hook"})

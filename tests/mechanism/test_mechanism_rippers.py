@@ -1,8 +1,9 @@
-"""A dozer's adjustable parallelogram ripper: two freedoms, its poses against a solution by circles, what is measured of
-it."""
+"""A dozer's parallelogram rippers, adjustable (two freedoms) and fixed (one): their poses against a solution by
+circles, what is measured of them."""
 
 from __future__ import annotations
 
+import cmath
 import itertools
 import math
 
@@ -107,3 +108,53 @@ def test_nameless_every_part_is_in_its_body(seed: int, blade: str) -> None:
     with left and right exchanged and nothing for review."""
     machine = dozer(seed, blade, dual=False, high=False, ripper="parallel")
     assert found_whole(machine, "dozer", seed, triangles=False).choices["ripper"] == "parallel"
+
+
+@pytest.fixture(scope="module")
+def fixed() -> Mechanism:
+    choices = {**CHOICES, "ripper_links": "plates"}
+    return without(dozer(621, "pat", dual=False, high=False, ripper="fixed_parallel"), "dozer", (), choices=choices)
+
+
+def test_a_fixed_one_moves_one_way_and_its_shanks_keep_their_angle(fixed: Mechanism) -> None:
+    """Its pins are no exact parallelogram: the upper link's circle about its pivot meets that of the beam's pin."""
+    assert fixed.mobility is not None and fixed.mobility.computed == fixed.mobility.expected
+    assert "ripper_lift" in {a.name for a in fixed.actuators} and "ripper_tip" not in {a.name for a in fixed.actuators}
+    chain = ClosedChain(fixed)
+
+    def at(name: str) -> complex:
+        anchor = fixed.joint(name).anchor
+        return complex(anchor[0], anchor[2])
+
+    pivot, beam = at("main_frame2ripper_link_joint"), at("ripper_link2ripper_beam_joint")
+    foot = at("main_frame2ripper_lift_cylinder_barrel_l_joint")
+    eye = at("ripper_link2ripper_lift_piston_rod_l_joint")
+    top, end = at("main_frame2ripper_upper_link_joint"), at("ripper_upper_link2ripper_beam_joint")
+    site = next(s for s in fixed.sites if s.name == "ripper_tip")
+    point = complex(site.position[0], site.position[2])
+    worst, turned = 0.0, 0.0
+    for lift in _strokes(fixed, LIFT, 17):
+        state = chain.solve({LIFT: lift})
+        moved = chain.displacement(state, "ripper_beam") @ [*site.position, 1.0]
+        up = _meet(foot, abs(eye - foot) + lift, pivot, abs(eye - pivot), eye)
+        turn = (up - pivot) / (eye - pivot)
+        hung = pivot + turn * (beam - pivot)
+        held = _meet(top, abs(end - top), hung, abs(end - beam), hung + (end - beam))
+        expected = hung + (held - hung) / (end - beam) * (point - beam)
+        worst = max(worst, abs(complex(moved[0], moved[2]) - expected))
+        turned = max(turned, abs(math.degrees(cmath.phase((held - hung) / (end - beam)))))
+    assert worst <= 1e-9
+    assert turned < 10.0
+
+
+def test_the_tip_of_a_tall_carrier_is_its_shanks(fixed: Mechanism) -> None:
+    """The farthest point from the beam's pin was the top of a carrier that reaches farther up than its shanks down."""
+    site = next(s for s in fixed.sites if s.name == "ripper_tip")
+    hull = np.asarray(fixed.body("ripper_beam").hull)
+    assert site.position[2] == pytest.approx(float(hull[:, 2].min()), abs=1e-6)
+
+
+def test_nameless_a_fixed_one_is_whole() -> None:
+    machine = dozer(623, "pat", dual=False, high=False, ripper="fixed_parallel")
+    choices = {"ripper_links": "plates"}
+    assert found_whole(machine, "dozer", 623, triangles=False, choices=choices).choices["ripper"] == "parallel"

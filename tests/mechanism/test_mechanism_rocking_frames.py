@@ -12,8 +12,12 @@ from scipy.optimize import brentq
 from kit.machines.partly_drawn import without
 from kit.machines.rocking_dozers import rocking_dozer
 from kit.machines.unseen import found_whole
+from yellowiron.alignment.pipeline import align
 from yellowiron.kinematics import ClosedChain, measure
+from yellowiron.library import Documents, load_template
 from yellowiron.model.mechanism import Mechanism
+from yellowiron.model.specification import Specifications
+from yellowiron.stages import solve
 
 BAR = "main_frame2equalizer_bar_joint"
 CHOICES = {"blade": "pat", "tilt": "single", "ripper": "none", "track_frames": "oscillating"}
@@ -107,7 +111,7 @@ def test_a_front_idlers_travel_is_measured(built: Mechanism) -> None:
     ],
 )
 def test_nameless_every_part_is_in_its_body(seed: int, blade: str, high: bool, triangles: bool) -> None:
-    """The sprocket on top of a track is the main frame's, though the rear wheel below has its role."""
+    """The sprocket on top of a track is the main frame's, the idlers below are the track frame's."""
     found = found_whole(rocking_dozer(seed, blade, high=high), "dozer", seed, triangles=triangles)
     assert found.choices["track_frames"] == "oscillating" and found.choices["blade"] == blade
 
@@ -118,3 +122,25 @@ def test_a_pivot_that_does_not_reach_its_limit_is_told_in_degrees() -> None:
     choices = {**CHOICES, "blade": "push_arms", "tilt": "dual"}
     words = next(f.message for f in without(machine, "dozer", (), choices=choices).findings if f.code == "KIN002")
     assert f"{BAR} -4°" in words
+
+
+def test_a_high_sprocket_drives_its_shoes_and_the_rear_idler_rolls_on_the_track_frame() -> None:
+    """The rear idler had the sprocket's role: it hung on the main frame, and drove."""
+    machine = rocking_dozer(734, "pat", high=True, ripper="")
+    template, assembly, choices = load_template("dozer"), machine.assembly(), {"tracks": "shoes"}
+    found = align(assembly, template, Specifications(), choices=choices)
+    assert not found.missing
+    built = solve(template, assembly, found, Specifications(), Documents(), choices).mechanism
+    assert built.mobility is not None and built.mobility.computed == built.mobility.expected
+    for side, way in (("l", "left"), ("r", "right")):
+        sprocket, idler = (
+            built.joint(f"{on}_{side}_joint") for on in ("main_frame2sprocket", f"roller_frame_{side}2idler")
+        )
+        rollers = [j for j in built.joints if j.name.startswith(f"roller_frame_{side}2track_roller_{side}_joint_")]
+        rear = min(rollers, key=lambda joint: joint.anchor[0])
+        assert sprocket.drive is not None and sprocket.anchor[2] > 2.0 * idler.anchor[2]
+        assert rear.anchor[2] == pytest.approx(idler.anchor[2], abs=1e-6) and rear.drive is None and rear.free
+        assert next(a for a in built.actuators if a.name == f"travel_{way}").joints[0].joint == sprocket.name
+        if side == "l":
+            length = {m.name: m.model for m in measure(built)}["Track Length on Ground"]
+            assert length == pytest.approx(idler.anchor[0] - rear.anchor[0], abs=1e-6)

@@ -4,6 +4,7 @@ it tips."""
 from __future__ import annotations
 
 import importlib
+import math
 from pathlib import Path
 from types import ModuleType
 
@@ -12,7 +13,7 @@ from in_engines import installed
 
 from kit.builds import MadeOnce
 from kit.machines.drawn_examples import built_example
-from yellowiron.simulation import ChartLoad, chart_stability, chart_tests, run_tests, simulate
+from yellowiron.simulation import ChartLoad, chart_stability, chart_tests, chart_tipping, run_tests, simulate
 
 pytestmark = pytest.mark.slow
 
@@ -39,6 +40,17 @@ def test_it_tips_where_statics_says(file: Path, engine: str) -> None:
     """Its tracks' ends are a little off the ground, so that it rocks by a tenth of a degree before it tips: that was
     taken for tipping (45 and 73 % too early)."""
     (tipping,) = run_tests(file, engine=engine, names=["Tipping Load at Maximum Radius"])
+    assert tipping.engine_value is not None and tipping.statics_value is not None
+    assert tipping.engine_value == pytest.approx(tipping.statics_value, rel=0.02)
+
+
+@pytest.mark.parametrize("engine", ["mujoco", pytest.param("physx", marks=installed("physx"))])
+def test_over_its_side_it_tips_about_the_middle_of_a_track(file: Path, engine: str) -> None:
+    """It is weakest there. Statics had it stand on its shoes' outer edges, which touch nothing in the file."""
+    row = ChartLoad(10.0, 6.0, 20_000.0)
+    (weakest,) = chart_stability(file, [row], slewed=None)
+    assert abs(weakest.slewed) == pytest.approx(math.pi / 2)
+    (tipping,) = run_tests(file, engine=engine, tests=chart_tipping(file, [row], slewed=None))
     assert tipping.engine_value is not None and tipping.statics_value is not None
     assert tipping.engine_value == pytest.approx(tipping.statics_value, rel=0.02)
 

@@ -68,20 +68,28 @@ def test_it_lifts_what_it_is_rated_for_and_no_more_than_its_winch_can(file: Path
     assert tipping.engine_value == pytest.approx(tipping.statics_value, rel=0.1)
 
 
-def test_it_tips_where_the_maker_s_chart_says_that_stability_bounds_it(
-    file: Path, values: ModuleType, tmp_path: Path
-) -> None:
-    """The chart is the maker's; the masses are ours, drawn so that they add up to its weight and give its stability."""
+@pytest.fixture(scope="module")
+def chart(values: ModuleType, tmp_path_factory: pytest.TempPathFactory) -> tuple[ChartLoad, ...]:
+    """The maker's 13 loads that stability bounds, read from a file."""
     radii = sorted({r for row in values.CHART.values() for r in row})
     lines = [",".join(["radius", *map(str, values.CHART)])]
     for r in radii:
         loads = [values.CHART[n].get(r) for n in values.CHART]
         lines.append(",".join([str(r), *("" if one is None else f"{1000.0 * one:g}" for one in loads)]))
-    (tmp_path / "chart.csv").write_text("\n".join(lines), encoding="utf-8")
-    chart = read_load_chart(tmp_path / "chart.csv")
+    path = tmp_path_factory.mktemp("chart") / "chart.csv"
+    path.write_text("\n".join(lines), encoding="utf-8")
+    return read_load_chart(path)
+
+
+def test_it_tips_where_the_maker_s_chart_says_that_stability_bounds_it(
+    file: Path, values: ModuleType, chart: tuple[ChartLoad, ...]
+) -> None:
+    """The chart is the maker's; the masses are ours, drawn so that they add up to its weight and give its stability.
+    It has one load for all directions: of them the front is the weakest."""
     assert len(chart) == 13
-    for figure in chart_stability(file, chart):
+    for figure in chart_stability(file, chart, slewed=None):
         assert figure.tips_at == pytest.approx(values.STABILITY * figure.row.load, rel=0.1), figure
+        assert figure.slewed == 0.0
     out = chart_stability(file, [ChartLoad(30.5, 40.0, 100.0)])
     assert out[0].tips_at is None and "cannot be reached" in out[0].reason
 
@@ -116,20 +124,25 @@ def test_over_its_sides_it_tips_about_the_floats_of_that_side(file: Path) -> Non
     assert [*found.values()] == pytest.approx([hanging, hanging], rel=0.01)
 
 
-@pytest.mark.parametrize("slewed", [0.0, math.pi / 2])
-def test_in_an_engine_it_tips_as_statics_says_over_front_and_side(
-    file: Path, values: ModuleType, slewed: float
+def test_in_an_engine_it_tips_where_the_chart_says_in_its_weakest_direction(
+    file: Path, values: ModuleType, chart: tuple[ChartLoad, ...]
 ) -> None:
-    """The chart has one load for all directions: that of the front, over which this crane tips first."""
-    rows = [ChartLoad(n, r, 1000.0 * values.CHART[n][r]) for n, r in ((16.4, 11.0), (23.45, 14.0), (30.5, 20.0))]
+    """A load that grew too fast set it rocking, and it tipped at 0.87 of the chart's limit with its boom far out."""
     hanging = sum(b.mass for b in read_mechanism(file).bodies if b.name in ("hook_block", "hoist_rope"))
-    figures = run_tests(file, engine="mujoco", tests=chart_tipping(file, rows, slewed=slewed))
-    for row, figure, statics in zip(rows, figures, chart_stability(file, rows, slewed=slewed), strict=True):
-        assert figure.engine_value is not None and statics.tips_at is not None
-        assert figure.statics_value == pytest.approx(statics.tips_at - hanging, rel=1e-6)
-        assert figure.engine_value == pytest.approx(figure.statics_value, rel=0.1)
-        share = (figure.engine_value + hanging) / (values.STABILITY * row.load)
-        assert share > 1.0 if slewed else share == pytest.approx(1.0, abs=0.1)
+    figures = run_tests(file, engine="mujoco", tests=chart_tipping(file, chart, slewed=None))
+    for row, figure in zip(chart, figures, strict=True):
+        assert figure.engine_value is not None and figure.statics_value is not None
+        assert figure.engine_value == pytest.approx(figure.statics_value, rel=0.05)
+        assert figure.engine_value + hanging == pytest.approx(values.STABILITY * row.load, rel=0.1)
+
+
+def test_in_an_engine_it_tips_over_its_side_as_statics_says(file: Path, values: ModuleType) -> None:
+    rows = [ChartLoad(n, r, 1000.0 * values.CHART[n][r]) for n, r in ((16.4, 11.0), (23.45, 14.0), (30.5, 20.0))]
+    figures = run_tests(file, engine="mujoco", tests=chart_tipping(file, rows, slewed=math.pi / 2))
+    for row, figure in zip(rows, figures, strict=True):
+        assert figure.engine_value is not None and figure.statics_value is not None
+        assert figure.engine_value == pytest.approx(figure.statics_value, rel=0.05)
+        assert figure.engine_value > values.STABILITY * row.load
 
 
 def test_rated_loads_are_hauled_in_at_three_radii(file: Path, values: ModuleType) -> None:

@@ -19,6 +19,8 @@ from yellowiron.model.template import Template
 
 INSIDE = 0.01
 """The start is this share of the joint's range inside its nearer limit."""
+HANGING = 0.98
+"""Least share of the way from a ball to the middle of what hangs on it that goes straight down."""
 
 
 @dataclass(frozen=True, eq=False)
@@ -72,7 +74,30 @@ def legal_start(mechanism: Mechanism, held: Mapping[str, float] | None = None) -
         words = f"The linkage locks after {share:.0%} of the way to a legal start pose."
         first = next(iter((*wanted, *led)))
         findings.append(Finding("KIN012", "error", first, words, "Check stroke and closed length."))
-    return Start(coordinates, chain.pose(state), tuple(findings), share == 1.0)
+    return Start(coordinates, _hung(mechanism, chain.pose(state)), tuple(findings), share == 1.0)
+
+
+def _hung(mechanism: Mechanism, moves: Mapping[str, Floats]) -> dict[str, Floats]:
+    """The bodies' displacements (4, 4), those of what hangs straight down on a free ball, and on nothing else, without
+    the turn of what it hangs on: a hook on a jib that is pinned below its boom hangs straight down."""
+    moved, bodies = dict(moves), {b.name: b for b in mechanism.bodies}
+    for ball in (j for j in mechanism.joints if j.free and j.type == "spherical" and not j.cut):
+        below = {ball.body1}
+        while more := {j.body1 for j in mechanism.joints if not j.cut and j.body0 in below} - below:
+            below |= more
+        others = ({j.body0, j.body1} for j in mechanism.joints if j is not ball)
+        if any(ends & below and ends - below for ends in others) or not below <= moved.keys():
+            continue
+        hanging = [bodies[name] for name in sorted(below)]
+        middle = np.average([b.center_of_mass for b in hanging], axis=0, weights=[b.mass for b in hanging])
+        down = np.subtract(middle, ball.anchor)
+        if -down[2] < HANGING * float(np.linalg.norm(down)):
+            continue
+        upright = np.eye(4)
+        upright[:3, 3] = (moves[ball.body0] @ [*ball.anchor, 1.0])[:3] - ball.anchor
+        back = np.linalg.inv(moves[ball.body1])
+        moved |= {body: upright @ back @ moves[body] for body in below}
+    return moved
 
 
 def started(

@@ -17,6 +17,7 @@ from yellowiron.mechanism.tolerances import PARALLEL
 from yellowiron.model.finding import Finding
 from yellowiron.model.geometry import Floats
 from yellowiron.model.mechanism import Site
+from yellowiron.model.rows import member
 from yellowiron.model.template import SiteTemplate, Template
 from yellowiron.support.vectors import clean_triple
 
@@ -100,7 +101,7 @@ def _site(
     if "inside_from" in rule:
         return _inside_site(entry, frame, spanning, placement)
     edge = _edge_site(entry, frame, spanning, template, placement, findings)
-    return _at_tip(edge, frame, placement) if edge is not None and rule.get("tip") else edge
+    return _at_tip(edge, frame, placement, low=rule["tip"] == "low") if edge and rule.get("tip") else edge
 
 
 def _upright_site(entry: SiteTemplate, frame: JointFrame) -> Site | None:
@@ -115,12 +116,21 @@ def _upright_site(entry: SiteTemplate, frame: JointFrame) -> Site | None:
 
 
 def _middle_site(entry: SiteTemplate, placement: Placement) -> Site | None:
-    """The middle of the box around a role's parts."""
-    points = placement.points_of(placement.rows_of_role(str(entry.rule["middle_of"])))
+    """The middle of the box around a role's parts, or around the last part of the row `if_high` where they stand higher
+    above the ground than half their height: a track with its sprocket on top ends at the last wheel on the ground."""
+    name = str(entry.rule["middle_of"])
+    points = placement.points_of(placement.rows_of_role(name))
+    row = str(entry.rule.get("if_high", ""))
+    if row and len(points) and float(points[:, 2].min()) > 0.5 * float(np.ptp(points[:, 2])):
+        number = 1
+        while placement.rows_of_role(member(row, number + 1)):
+            number += 1
+        last = placement.points_of(placement.rows_of_role(member(row, number)))
+        name, points = (member(row, number), last) if len(last) else (name, points)
     if not len(points):
         return None
     middle = 0.5 * (points.min(axis=0) + points.max(axis=0))
-    return Site(entry.name, entry.body, clean_triple(middle), source=f"middle of {entry.rule['middle_of']}")
+    return Site(entry.name, entry.body, clean_triple(middle), source=f"middle of {name}")
 
 
 def _floor_site(entry: SiteTemplate, placement: Placement) -> Site | None:
@@ -216,11 +226,14 @@ def _widest(points: Floats, normals: Floats, areas: Floats, chosen: NDArray[np.b
     return own[widest], float(offsets[widest])
 
 
-def _at_tip(edge: Site, frame: JointFrame, placement: Placement) -> Site:
+def _at_tip(edge: Site, frame: JointFrame, placement: Placement, *, low: bool) -> Site:
     """The edge's site moved to the body's points farthest from the joint's axis (the teeth, whatever part they are
-    of), in their middle along it."""
+    of), in their middle along it; `low`: of those below it as drawn, where there are any (a ripper's shanks, whose
+    carrier may reach farther up)."""
     line = Axis(frame.anchor, frame.axis)
     points = placement.points_of(placement.rows_of_body(edge.body))
+    below = points[:, 2] < frame.anchor[2]
+    points = points[below] if low and below.any() else points
     distance = line.distance(points)
     tip = _one_edge(points[distance > distance.max() - _EDGE], line)
     along = line.along(tip)

@@ -111,14 +111,15 @@ class JointTemplate:
     follows: Follows | None = None
     direction: Direction | None = None
     positions: Mapping[str, float | str] = field(default_factory=dict, hash=False)
+    position_variant: str = ""
     at: float | str | None = None
     rest: float | str | None = None
     rest_when: Choices = field(default_factory=dict)
 
     @property
     def chosen_by(self) -> str:
-        """The variant that says in which of its positions it is held."""
-        return self.name.removesuffix("_joint")
+        """The variant that says in which of its positions it is held: that of its name, if it states no other."""
+        return self.position_variant or self.name.removesuffix("_joint")
 
 
 AS_DRAWN = "drawn"
@@ -475,9 +476,8 @@ def choose(template: Template, choices: Mapping[str, str]) -> Template:
 
 def _held(joint: JointTemplate, chosen: Mapping[str, str]) -> JointTemplate:
     """A joint of several positions in the one that is chosen; any other as it is."""
-    if not joint.positions:
-        return joint
-    return replace(joint, at=joint.positions.get(chosen.get(joint.chosen_by, AS_DRAWN), 0.0), positions={})
+    at = joint.positions.get(chosen.get(joint.chosen_by, AS_DRAWN), 0.0)
+    return replace(joint, at=at, positions={}) if joint.positions else joint
 
 
 def _unsprung(joint: JointTemplate, chosen: Mapping[str, str]) -> JointTemplate:

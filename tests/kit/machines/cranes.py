@@ -1,5 +1,6 @@
-"""Parametric mobile cranes straight as `Assembly` objects, with the truth: a boom of two to four sections that slews,
-one luffing cylinder or two, a hook on two to eight falls or none, four outriggers drawn out by any share.
+"""Parametric mobile cranes straight as `Assembly` objects, with the truth: a boom of two to four sections (to six,
+where they are pinned) that slews, one luffing cylinder or two, a hook on two to eight falls or none, four outriggers
+drawn out by any share.
 
 Every dimension is drawn from a seed, by none of the example's code; simplified as the synthetic loaders are.
 """
@@ -21,6 +22,8 @@ HALF, HIGH, WALL, LOOSE = 0.14, 0.19, 0.012, 0.005
 BODIES = {
     2: ["boom", "inner_boom"], 3: ["boom", "middle_boom", "inner_boom"],
     4: ["boom", "middle_boom", "second_middle_boom", "inner_boom"],
+    5: ["boom", "middle_boom", "second_middle_boom", "third_middle_boom", "inner_boom"],
+    6: ["boom", "middle_boom", "second_middle_boom", "third_middle_boom", "fourth_middle_boom", "inner_boom"],
 }  # fmt: skip
 JIB = 1.6
 """How far a jib reaches beyond the pin of the head's sheaves."""
@@ -34,7 +37,7 @@ class Crane(SteeredChassis):
     carrier = "carrier"
 
     def __init__(
-        self, seed: int, *, sections: int, twin: bool, hook: bool, pinned: bool, jib: bool, embedded: bool
+        self, seed: int, *, sections: int, twin: bool, hook: bool, pinned: bool, jib: str, embedded: bool
     ) -> None:
         self.sections, self.twin, self.hook, self.pinned, self.jib = sections, twin, hook, pinned, jib
         super().__init__(seed, twin=True, steered=False, embedded=embedded, stop=False, hoses=0)
@@ -80,9 +83,11 @@ class Crane(SteeredChassis):
         for group in (self.frame, self.axles, self.outriggers, self.upper, self.sections_out, self.rams):
             group()
         if self.hook:
-            self.hoist()
+            self.hoist("N", "hoist_rope", "hook_block", falls=self.falls, drop=self.rope)
         if self.jib:
             self.draw_jib()
+        if self.jib == "hook":
+            self.hoist("E", "jib_hoist_rope", "jib_hook_block", falls=1, drop=0.6 * self.rope)
         return self.m
 
     def lugs(self, name: str, body: str, y: float, pin: str, *feet: Array) -> None:
@@ -280,13 +285,13 @@ class Crane(SteeredChassis):
         role = "telescope_piston_rod_pin" if self.sections == 2 else "middle_telescope_piston_rod_pin"
         self.pin_across(role, body, "W")
 
-    def hoist(self) -> None:
+    def hoist(self, pin: str, name: str, body: str, *, falls: int, drop: float) -> None:
         """Rope and sheaves in one, and the hook block that it runs into."""
         s, e, m = self.s, self.e, self.m
-        n, r, rope = self.P["N"], 0.075 * s, 0.006 * s
-        pitch, drop = 0.024 * s, self.rope * s
-        rows = (np.arange(self.falls) - 0.5 * (self.falls - 1)) * pitch
-        sheave = 0.5 * self.falls * pitch + 0.006 * s
+        n, r, rope = self.P[pin], 0.075 * s, 0.006 * s
+        pitch, drop = 0.024 * s, drop * s
+        rows = (np.arange(falls) - 0.5 * (falls - 1)) * pitch
+        sheave = 0.5 * falls * pitch + 0.006 * s
         shapes = [(tube("head_sheave", r, self.bore_r, 2 * sheave), place((0, -sheave, 0), Y))]
         spots = [(side * (r - 0.5 * rope), float(y)) for y in rows for side in (1.0, -1.0)]
         below = 0.12 * s
@@ -295,8 +300,8 @@ class Crane(SteeredChassis):
         shapes += [(tube("fall_top", rope, 0.0, below), place((x, y, -below), Z)) for x, y in spots]
         at = np.eye(4)
         at[:3, 3] = (n[0], 0.0, n[1])
-        m.add("rope", "hoist_rope", "hoist_rope", merged(f"rope_{self.falls}_{drop:.4f}", *shapes), at)
-        body, wide = "hook_block", sheave + 0.012 * s
+        m.add("rope", name, name, merged(f"rope_{falls}_{drop:.4f}", *shapes), at)
+        wide = sheave + 0.012 * s
         holes = [(x, y, 1.7 * rope) for x, y in spots]
         guard = box("guard", 2 * r + 0.05 * s, 2 * wide, 0.06 * s, holes)
         top = n[1] - drop + 0.12 * s
@@ -319,10 +324,14 @@ class Crane(SteeredChassis):
         bracket = around((*self.P["J"], wide), *((*self.on(x, self.axis + z), 0.0) for x, z in (
             (self.long - 0.5, 0.08), (self.long - 0.38, -0.04),
         )))  # fmt: skip
-        arm = around((*self.P["J"], wide), (*end, 0.5 * wide))
+        arm, pins = around((*self.P["J"], wide), (*end, 0.5 * wide)), "J"
+        if self.jib == "hook":
+            self.P["E"] = self.on(self.long + JIB + 0.14, self.axis + 0.3)
+            arm, pins = around((*self.P["J"], wide), (*self.P["E"], wide)), "JE"
+            self.pin_across("jib_hoist_rope_pin", "jib", "E", half=y + 1.6 * t + self.gap)
         for side in (1, -1):
             self.side_plate("jib bracket", "inner_boom", side * (y - e), bracket, "J")
-            self.side_plate("jib arm", "jib", side * (y + t + self.gap), arm, "J")
+            self.side_plate("jib arm", "jib", side * (y + t + self.gap), arm, pins)
         self.pin_across("jib_pin", "inner_boom", "J", half=y + 2.0 * t + self.gap)
         along, up = polar(1.0, self.boom), polar(1.0, self.boom + math.pi / 2)
         tie = box("jib_tie", 0.05 * s, 2.0 * (y + 0.5 * t + self.gap + e), 0.05 * s)
@@ -347,14 +356,14 @@ class Crane(SteeredChassis):
 
 def crane(
     seed: int, *, sections: int | None = None, twin: bool | None = None, hook: bool | None = None,
-    pinned: bool = False, jib: bool = False, embedded: bool = False,
+    pinned: bool = False, jib: bool | str = False, embedded: bool = False,
 ) -> Machine:  # fmt: skip
     """The machine of a seed, in its own frame, in drawing order, with names; what is not stated is the seed's.
     `pinned`: all sections in, as one that a single cylinder inside draws out and pins is on the road; `jib`: one in
-    line with the boom, beside a head with a hook."""
+    line with the boom, beside a head with a hook, or with a `hook` of its own."""
     drawn = np.random.default_rng([seed, 59]).random(3)
     return Crane(
         seed, sections=int(2 + drawn[0] * 3) if sections is None else sections,
         twin=bool(drawn[1] < 0.4) if twin is None else twin, hook=bool(drawn[2] < 0.75) if hook is None else hook,
-        pinned=pinned, jib=jib, embedded=embedded,
+        pinned=pinned, jib=jib if isinstance(jib, str) else "jib" if jib else "", embedded=embedded,
     ).draw()  # fmt: skip

@@ -197,7 +197,7 @@ class Dozer(Digger):
             self.c_frame()
         if self.ripper == "radial":
             self.radial_ripper()
-        elif self.ripper == "parallel":
+        elif self.ripper in ("parallel", "fixed_parallel"):
             self.parallel_ripper()
         return self.m
 
@@ -520,7 +520,8 @@ class Dozer(Digger):
         m.pose = np.eye(4)
 
     def parallel_ripper(self) -> None:
-        """A link under the tip cylinders, which are the parallelogram's upper side; the lift cylinders are between."""
+        """A link under the tip cylinders, which are the parallelogram's upper side, or under a second link, where it is
+        a fixed one; the lift cylinders are between."""
         s, e, main, body, link, m = self.s, self.e / self.s, self.carrier, "ripper_beam", "ripper_link", self.m
         t, gap = self.t / s, self.gap / s
         y_lift, y_tip = 0.16, 0.16 + 2 * self.lug_y + 0.075
@@ -528,7 +529,8 @@ class Dozer(Digger):
         at = RIPPER
         self.block("ripper plate", main, (-1.56, -0.66, 0.4), (-1.5 + e, 0.66, 1.65))
         for side, letter in SIDES:
-            for name, y, pin, span in (("lift", y_lift, at["foot"], 0.09), ("tip", y_tip, at["top"], 0.07)):
+            hung = [("lift", y_lift, at["foot"], 0.09), ("tip", y_tip, at["top"], 0.07)]
+            for name, y, pin, span in hung[: 1 if self.ripper == "fixed_parallel" else 2]:
                 feet = ((-1.56 + e, pin[1] - span), (-1.56 + e, pin[1] + span))
                 self.lugs(f"ripper {name} lug", main, side * y, pin, *feet)
                 self.level_pin(f"ripper_{name}_cylinder_barrel_{letter}_pin", main, pin, side * y)
@@ -546,6 +548,12 @@ class Dozer(Digger):
             end = at["end"]
             self.wall("ripper carrier", body, side * y_arm, [(*at["beam"], self.wide), (end[0] - 0.1, end[1], 0),
                       (end[0] - 0.1, at["beam"][1] - 0.1, 0)], at["beam"])  # fmt: skip
+            if self.ripper == "fixed_parallel":
+                self.upper_link(side, y_tip)
+                halves = ("ripper_lift_cylinder_barrel_" + letter, "ripper_lift_piston_rod_" + letter)
+                pins = (self.spot(at[pin][0], side * y_lift, at[pin][1]) for pin in ("foot", "eye"))
+                self.cylinder(f"ripper lift {letter}", *halves, *pins, Y, 0.04 * s)
+                continue
             self.lugs("ripper tip rod lug", body, side * y_tip, end, (end[0] - 0.1, end[1] - 0.07),
                       (end[0] - 0.1, end[1] + 0.07))  # fmt: skip
             self.level_pin(f"ripper_tip_piston_rod_{letter}_pin", body, end, side * y_tip)
@@ -562,9 +570,22 @@ class Dozer(Digger):
         self.block("ripper carrier box", body, (end[0] - 0.2, -wide, low), (end[0] - 0.1 + e, wide, end[1] + 0.09))
         for k in range(int(self.rng.integers(1, 4))):
             across = (0.0, 0.4, -0.4)[k]
+            top = 1.6 if self.ripper == "fixed_parallel" else 1.2  # as a deep ripper's, far above its carrier
             self.block("ripper shank", body, (end[0] - 0.34, across - 0.04, 0.1),
-                       (end[0] - 0.2 + e, across + 0.04, 1.2))  # fmt: skip
+                       (end[0] - 0.2 + e, across + 0.04, top))  # fmt: skip
         m.pose = np.eye(4)
+
+    def upper_link(self, side: int, y: float) -> None:
+        """A bar beside a plate of the frame and one of the carrier, on a pin through each."""
+        e, t, gap, at, body = self.e / self.s, self.t / self.s, self.gap / self.s, RIPPER, "ripper_upper_link"
+        top, end = at["top"], at["end"]
+        for carrier, pin, back in (("main_frame", "top", -1.56 + e), ("ripper_beam", "end", end[0] - 0.1)):
+            outline = [(*at[pin], self.wide), (back, at[pin][1] - 0.07, 0), (back, at[pin][1] + 0.07, 0)]
+            self.wall("ripper upper hinge", carrier, side * y, outline, at[pin])
+            role = "ripper_upper_link_pin" if pin == "top" else "ripper_upper_link_beam_pin"
+            self.level_pin(role, carrier, at[pin], side * (y + 0.5 * (t + gap)), 1.2 * t)
+        bar = [(*top, self.wide), (*end, self.wide)]
+        self.wall("ripper upper link arm", body, side * (y + t + gap), bar, top, end)
 
 
 def _ripper(said: bool | str) -> str:
@@ -576,7 +597,8 @@ def dozer(
     high: bool | None = None, ripper: bool | str | None = None, embedded: bool = False,
 ) -> Machine:  # fmt: skip
     """The machine of a seed, in its own frame, in drawing order, with names; what is not stated is the seed's. `blade`:
-    `pat` (on a C-frame) or `push_arms`; `ripper`: `radial` (what a seed draws, and `True`), `parallel` or none."""
+    `pat` (on a C-frame) or `push_arms`; `ripper`: `radial` (what a seed draws, and `True`), `parallel`,
+    `fixed_parallel` or none."""
     drawn = np.random.default_rng([seed, 61]).random(5)
     arms = bool(drawn[0] < 0.5) if blade is None else blade == "push_arms"
     return Dozer(

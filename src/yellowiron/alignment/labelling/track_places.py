@@ -1,8 +1,8 @@
 """The roles of a track's parts, and of what stands on a track.
 
 The wheel with teeth is the sprocket, the one at the other end the idler; rollers lie on the ground's side, carrier
-rollers on the other. Of a loop with a high sprocket the rear wheel has that role, for the track's length on the ground
-is measured there; what each moves with is told by where it is.
+rollers on the other. Of a loop that runs to a point above it the wheel up there is the sprocket, and the rear one, an
+idler as well, the last of the rollers.
 """
 
 from __future__ import annotations
@@ -53,27 +53,17 @@ def track_places(
     for track, y in zip(tracks, level, strict=True):
         left = y > 0 if len(tracks) == 1 else y > np.mean(level)
         rows = {r.kind: r for r in template.roles if r.kind in KINDS and (_side(r) in ("", "l" if left else "r"))}
-        for kind, words, groups in _parts(track, frame):
+        for kind, words, groups in _parts(track, frame, high=track.above is not None and "roller" in rows):
             role = rows.get(kind)
             if role is None:
                 continue
             for number, group in enumerate(groups, 1):
                 name = member(role.name, number) if role.many else role.name
-                body = template.body_of(_bearing(kind, group, track, frame, rows) if not role.rigid else name)
+                body = template.body_of(role.name if not role.rigid else name)
                 if body is not None:
                     said = f"{words} of {len(groups)}" if role.many else words
                     places |= {ids[i]: Place(name, body, SURE, said, how="track") for i in group}
     return places
-
-
-def _bearing(kind: str, group: tuple[int, ...], track: Track, frame: Floats, rows: Mapping[str, Role]) -> str:
-    """The role that a track's part moves as, where it is no body of its own: its own, but of a loop that runs to a
-    point above it the wheel up there is the sprocket, which its drive holds, and those below turn on the track's frame
-    as an idler does."""
-    if kind == "shoe" or track.above is None or not {"sprocket", "idler"} <= rows.keys():
-        return rows[kind].name
-    top = max(track.wheels, key=lambda wheel: float(frame[2, :3] @ wheel.center))
-    return rows["sprocket" if group == top.members else "idler"].name
 
 
 @dataclass(frozen=True, eq=False)
@@ -140,9 +130,9 @@ def _side(role: Role) -> str:
     return role.side or (ends if ends in ("l", "r") else "")
 
 
-def _parts(track: Track, frame: Floats) -> list[tuple[str, str, list[tuple[int, ...]]]]:
+def _parts(track: Track, frame: Floats, *, high: bool) -> list[tuple[str, str, list[tuple[int, ...]]]]:
     """(kind, words, solids of each) of a track's parts in order: wheels front to rear, shoes around the loop, forward
-    on the ground, the first being the first ahead of the track's middle."""
+    on the ground, the first being the first ahead of the track's middle. `high`: its sprocket is on top."""
     centers = track.centers @ frame[:3, :3].T + frame[:3, 3]
     middle = 0.5 * (centers.min(axis=0) + centers.max(axis=0))
     order = list(range(len(centers)))
@@ -155,7 +145,16 @@ def _parts(track: Track, frame: Floats) -> list[tuple[str, str, list[tuple[int, 
     shoes = [track.shoes[k] for k in (*order[at:], *order[:at])]
     placed = sorted(((frame[:3, :3] @ w.center + frame[:3, 3], w) for w in track.wheels), key=lambda p: -float(p[0][0]))
     found = [("shoe", "one of a closed row", shoes)]
-    if len(placed) >= 2:
+    if high and len(placed) >= 3:
+        top = max(placed, key=lambda each: float(each[0][2]))
+        (_, front), *inner = (each for each in placed if each is not top)
+        found += [
+            ("sprocket", "the wheel on top of the track", [top[1].members]),
+            ("idler", "the front wheel of the track", [front.members]),
+            ("roller", "one on the lower run, front to rear,", [w.members for p, w in inner if p[2] < middle[2]]),
+            ("carrier", "one under the upper run, front to rear,", [w.members for p, w in inner if p[2] >= middle[2]]),
+        ]
+    elif len(placed) >= 2:
         (_, front), *inner, (_, rear) = placed
         sprocket, idler = (front, rear) if front.rim < rear.rim - PLAIN else (rear, front)
         teeth = "the toothed wheel" if abs(front.rim - rear.rim) > PLAIN else "the rear wheel"

@@ -15,7 +15,7 @@ from yellowiron.model.rows import expand, split_index
 from yellowiron.model.template import AS_DRAWN, Template, choose, holds, in_position
 from yellowiron.support.graphs import blocks
 
-MOST_COMBINATIONS = 1024
+MOST_COMBINATIONS = 3000
 """Sets of choices that are looked at; a template with more says so."""
 _ORDER = ("error", "warning", "info")
 
@@ -89,7 +89,7 @@ def counts(template: Template) -> dict[str, int]:
 def _combinations(template: Template) -> Iterator[dict[str, str]]:
     """Every set of choices that goes together. Joints that are held in positions weld wherever they are: all of them as
     drawn, all in their first position, and so on, not one by one."""
-    held = {joint.chosen_by: joint for joint in template.joints if joint.positions}
+    held = {joint.chosen_by for joint in template.joints if joint.positions}
     drawn = dict.fromkeys(held, AS_DRAWN)
     others = [v for v in template.variants if v.name not in held]
     for values in itertools.product(*(v.choices for v in others)):
@@ -97,7 +97,7 @@ def _combinations(template: Template) -> Iterator[dict[str, str]]:
         if not template.go_together({**choices, **drawn}):
             continue
         yield {**choices, **drawn}
-        there = {name: [*joint.positions] for name, joint in held.items() if holds(joint.when, choices)}
+        there = {j.chosen_by: [*j.positions] for j in template.joints if j.positions and holds(j.when, choices)}
         for number in range(max(map(len, there.values()), default=0)):
             at = {name: places[min(number, len(places) - 1)] for name, places in there.items()}
             if template.go_together({**choices, **drawn, **at}):

@@ -68,6 +68,7 @@ def read_joint(document: Document, name: str, entry: Mapping[str, Any], base: Jo
         follows=_follows(document, name, entry["follows"], kind) if "follows" in entry else base.follows,
         direction=cast(Direction, entry["direction"].lower()) if "direction" in entry else base.direction,
         positions=_positions(document, name, entry["positions"], kind) if "positions" in entry else base.positions,
+        position_variant=entry.get("chosen_by", base.position_variant),
         rest=_rest(document, name, entry["rest"], kind) if "rest" in entry else base.rest,
     )
     if joint.positions and (joint.drive is not None or joint.follows is not None):
@@ -158,8 +159,13 @@ def _positions(document: Document, name: str, entry: Mapping[str, Any], kind: st
 
 
 def positions_chosen(joints: Sequence[JointTemplate]) -> tuple[Variant, ...]:
-    """The variants by which a person says in which of its positions a joint is held."""
-    return tuple(Variant(j.chosen_by, (AS_DRAWN, *j.positions), AS_DRAWN) for j in joints if j.positions)
+    """The variants by which a person says in which of its positions a joint is held. Joints that are there under
+    different choices may share one."""
+    held: dict[str, dict[str, None]] = {}
+    for joint in joints:
+        if joint.positions:
+            held.setdefault(joint.chosen_by, {AS_DRAWN: None}).update(dict.fromkeys(joint.positions))
+    return tuple(Variant(name, tuple(places), AS_DRAWN) for name, places in held.items())
 
 
 def resolve_leaders(joints: Sequence[JointTemplate], at: Callable[..., str]) -> tuple[JointTemplate, ...]:

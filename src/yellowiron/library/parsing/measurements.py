@@ -35,7 +35,7 @@ def read_measurements(
                 several = isinstance(given, list)
                 found = tuple(known(joint, place, names, "joint") for joint in (given if several else [given]))
                 rule[key] = found if several else found[0]
-        for key in ("middle_of", "floor_of"):
+        for key in ("middle_of", "floor_of", "if_high"):
             if key in rule:
                 rule[key] = known(rule[key], document.at("sites", name, key), parts, "role")
         body = known(entry["body"], document.at("sites", name, "body"), bodies, "body")

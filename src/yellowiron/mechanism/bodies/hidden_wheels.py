@@ -170,13 +170,20 @@ def _between_tumblers(
     placement: Placement, template: Template, side: str, low: Floats, high: Floats
 ) -> tuple[float, float] | None:
     """From where to where along x the track of a side is tangent to the ground: below the axles of its first and last
-    low tumbler. None where it has no two."""
+    low tumbler, or of the last roller where the sprocket is a high one. None where it has no two."""
     names = {r.name for r in template.roles if r.kind in TUMBLERS and r.side == side}
-    axles = []
-    for name in sorted(names):
-        points = placement.points_of(tuple(i for i, role in enumerate(placement.roles) if role == name))
-        if len(points) and float(points[:, 2].min()) < low[2] + LOW * (high[2] - low[2]):
+    there = {name: points for name in sorted(names) if len(points := placement.points_of(placement.rows_of_role(name)))}
+    axles, raised = [], False
+    for points in there.values():
+        if float(points[:, 2].min()) < low[2] + LOW * (high[2] - low[2]):
             axles.append(round(0.5 * float(points[:, 0].min() + points[:, 0].max()), 9))
+        else:
+            raised = True
+    if raised:
+        rollers = [r.name for r in template.roles if r.kind == "roller" and r.side == side]
+        for points in (placement.points_of(placement.rows_of_role(name)) for name in rollers):
+            if len(points):
+                axles.append(round(0.5 * float(points[:, 0].min() + points[:, 0].max()), 9))
     if len(axles) < 2 or max(axles) - min(axles) < 0.5 * float(high[0] - low[0]):
         return None
     return min(axles), max(axles)

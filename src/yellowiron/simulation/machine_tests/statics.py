@@ -63,10 +63,13 @@ def actuator_area(mechanism: Mechanism, name: str, *, positive: bool) -> float:
 
 def supports(mechanism: Mechanism, chain: ClosedChain, state: State) -> tuple[tuple[str, Floats], ...]:
     """(body, point (3,)) wherever the machine stands: under both edges of every wheel on the ground, and the lowest
-    corners of whatever else stands there."""
+    corners of whatever else stands there. A body with hidden wheels under its tracks (which its `pads` tell) stands on
+    them, as it does in an engine: their shoes touch nothing there."""
     rolling = {joint.body1: (joint, radius) for joint, radius in wheels(mechanism)}
     found: list[tuple[str, Floats]] = []
     for name in standing_bodies(mechanism):
+        if mechanism.body(name).pads:
+            continue
         hull = np.asarray(mechanism.body(name).hull)
         if name not in rolling:
             pose = chain.displacement(state, name)
