@@ -31,7 +31,7 @@ TYPES = {
     "wheel_loader": ("loader",), "excavator": ("excavator", "mini"), "skid_steer": ("skid_steer",),
     "articulated_dump_truck": ("articulated_truck",), "rigid_dump_truck": ("rigid_truck",),
     "backhoe_loader": ("backhoe",), "roller": ("roller", "yoke_roller"), "forklift": ("forklift",),
-    "telehandler": ("telehandler",), "dozer": ("dozer",),
+    "telehandler": ("telehandler",), "dozer": ("dozer", "rocking_dozer"),
     "wheeled_excavator": ("wheeled_excavator",), "mobile_crane": ("crane",), "grader": ("grader",),
 }  # fmt: skip
 """Type → kinds of machines that we draw of it; a body is measured on the first kind that has it."""

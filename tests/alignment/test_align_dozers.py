@@ -3,6 +3,8 @@ of the ground; cylinders on balls that no pin shows."""
 
 from __future__ import annotations
 
+from types import SimpleNamespace
+
 import numpy as np
 import pytest
 
@@ -17,6 +19,10 @@ from yellowiron.alignment.axes.estimate import estimate_axes
 from yellowiron.alignment.axes.values import Frame
 from yellowiron.alignment.features.solids import solids_of
 from yellowiron.alignment.features.tracks import tracks_of
+from yellowiron.alignment.fusion.votes import _anywhere
+from yellowiron.alignment.labelling.confidence import REVIEW
+from yellowiron.alignment.labelling.place import Place
+from yellowiron.alignment.labelling.track_places import no_surer_than_frames
 from yellowiron.alignment.pipeline import align
 from yellowiron.model.specification import Specifications
 
@@ -104,3 +110,26 @@ def test_the_end_of_a_cylinder_on_a_ball_is_estimated_without_its_pin() -> None:
         corners = assembly.points_of(part)
         middle = 0.5 * (corners.min(axis=0) + corners.max(axis=0))
         assert np.linalg.norm(found[joint].origin - middle) < 0.01 * high, joint
+
+
+def test_a_body_that_nobody_measured_fits_no_better_than_one_in_its_place() -> None:
+    """A parallelogram ripper's link has no usual place: with none to pay for it drew in whatever was drawn."""
+    template = library.load_template("dozer")
+    assert "ripper_link" not in template.usual
+    known = tuple(template.usual.values())
+    broad = _anywhere(known)
+    assert all((np.array(broad.low) <= u.low).all() and (np.array(broad.high) >= u.high).all() for u in known)
+    assert min(broad.length / max(u.length for u in known), broad.area / max(u.area for u in known)) >= 1.0
+    assert {"roller_frame_l", "roller_frame_r", "equalizer_bar"} <= set(template.usual)
+
+
+@pytest.mark.parametrize(("strength", "body", "sure"), [(0.4, "roller_frame_l", False), (0.8, "roller_frame_l", True),
+                                                        (0.4, "main_frame", True)])  # fmt: skip
+def test_a_track_goes_with_a_frame_no_surer_than_that_is_found(strength: float, body: str, sure: bool) -> None:
+    """26 % of a dozer without pins was silently of frames that rock, which were for review themselves."""
+    solids = [SimpleNamespace(part=SimpleNamespace(id=name), surface=1.0) for name in ("frame", "shoe")]
+    found = {"frame": Place(body, body, strength, "by its place")}
+    shoe = {"shoe": Place("track_shoe_l_1", body, 0.95, "one of a closed row of 34", how="track")}
+    place = no_surer_than_frames(shoe, found, solids, "main_frame")["shoe"]  # type: ignore[arg-type]
+    assert (place.confidence >= REVIEW) == sure
+    assert place.body == body

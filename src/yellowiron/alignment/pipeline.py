@@ -57,7 +57,14 @@ from yellowiron.alignment.labelling.rams import with_rams
 from yellowiron.alignment.labelling.result import Labels, to_alignment
 from yellowiron.alignment.labelling.review import name_findings, review_findings
 from yellowiron.alignment.labelling.suspects import maybe_unplayed, otherwise, suspect_bodies
-from yellowiron.alignment.labelling.track_places import on_tracks, track_places, tracks_in, upright, without_tracks
+from yellowiron.alignment.labelling.track_places import (
+    no_surer_than_frames,
+    on_tracks,
+    track_places,
+    tracks_in,
+    upright,
+    without_tracks,
+)
 from yellowiron.alignment.labelling.undercut import too_low, undercut
 from yellowiron.alignment.structure.observation import Observation, observe
 from yellowiron.alignment.tolerances import CONTACT
@@ -203,8 +210,9 @@ def align(
     by_id = {observation.solids[i].part.id: place for i, place in places.items()}
     whole = as_drawn(choose(template, answer.choices), set(answer.solution.body_of.values()))
     if tracks and frame is not None:
-        on_track = track_places(tracks, tracked, frame.matrix, whole)
         solids = solids_of(_without(tracking, fittings))
+        on_track = track_places(tracks, tracked, frame.matrix, whole)
+        on_track = no_surer_than_frames(on_track, by_id, solids, whole.root)
         by_id |= on_tracks(by_id, on_track, solids, Touch(solids, answer.contact * observation.size)) | on_track
     if fittings:
         solids = solids_of(tracking)

@@ -21,6 +21,7 @@ from kit.machines.excavators import Features, excavator
 from kit.machines.graders import grader
 from kit.machines.lift_trucks import lift_truck
 from kit.machines.rigid_trucks import rigid_truck
+from kit.machines.rocking_dozers import rocking_dozer
 from kit.machines.rollers import roller
 from kit.machines.skid_steers import skid_steer
 from kit.machines.solids import Array, bolt, place
@@ -60,6 +61,8 @@ def drawn(kind: str, seed: int, *, segments: int = 32, hollow: bool = True) -> M
             return grader(seed, embedded=embedded)
         if kind == "dozer":
             return dozer(seed, embedded=embedded)
+        if kind == "rocking_dozer":
+            return rocking_dozer(seed, embedded=embedded)
         if kind == "crane":
             return crane(seed, embedded=embedded)
         if kind == "crawler_crane":

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import functools
 from collections.abc import Callable, Collection, Mapping, Sequence
 from itertools import combinations
 
@@ -14,6 +15,7 @@ from yellowiron.alignment.fusion.pieces import Piece
 from yellowiron.alignment.fusion.stance import Stance
 from yellowiron.model.template import Template, Usual
 from yellowiron.support.caching.remembered import remembered
+from yellowiron.support.vectors import triple
 
 Features = Mapping[str, float]
 """What speaks for something, by name; what each counts is in `weights`."""
@@ -64,6 +66,7 @@ def votes_of(
     apart = joints_apart(template)
     saids = borrowed([named(piece, scores) for piece in pieces], template)
     odd = odd_wheels([p.area for p in pieces if p.kind == "wheel"], template)
+    anywhere = _anywhere(tuple(template.usual.values())) if template.usual else None
     areas: dict[str, float] = {}
     for piece in pieces:
         for body in {b for i in piece.members for b in solved.get(i, ())}:
@@ -93,9 +96,10 @@ def votes_of(
                 default=0.0,
             )
             found = {"name": worth * name, "contacts": contact, "said": float(body in told), **shape}
-            if body in template.usual:
+            usual = template.usual.get(body, anywhere)
+            if usual is not None:
                 depth = apart.get((template.root, body), 0)
-                found |= _unusual(stance, piece, template.usual[body], stance.drawn * piece.area / total, depth)
+                found |= _unusual(stance, piece, usual, stance.drawn * piece.area / total, depth)
             if kind == piece.kind == "wheel" and body in odd:
                 found["odd"] = odd[body](piece.area)
             mine[body] = {key: value for key, value in found.items() if value}
@@ -247,6 +251,14 @@ def _solved(answer: Answer) -> dict[int, dict[str, float]]:
         for i in answer.structure.clusters[c].members:
             found[i] = {body: whole * share * share}
     return found
+
+
+@functools.cache
+def _anywhere(known: tuple[Usual, ...]) -> Usual:
+    """Where a body may be of which nobody has measured where it usually is: where any other of its type is, as long and
+    as large as the machine. If its place cost nothing, it would fit every piece best."""
+    low, high = np.min([u.low for u in known], axis=0), np.max([u.high for u in known], axis=0)
+    return Usual(triple(low), triple(high), 1.0, 1.0)
 
 
 @remembered

@@ -15,6 +15,7 @@ import numpy as np
 from yellowiron.alignment.features.distance import Touch
 from yellowiron.alignment.features.solids import Solid, solids_of
 from yellowiron.alignment.features.tracks import Track, tracks_of
+from yellowiron.alignment.labelling.confidence import REVIEW
 from yellowiron.alignment.labelling.place import DOUBTFUL, Place
 from yellowiron.model.assembly import Assembly
 from yellowiron.model.geometry import Floats
@@ -64,6 +65,26 @@ def track_places(
                     said = f"{words} of {len(groups)}" if role.many else words
                     places |= {ids[i]: Place(name, body, SURE, said, how="track") for i in group}
     return places
+
+
+def no_surer_than_frames(
+    on_track: Mapping[str, Place], found: Mapping[str, Place], solids: Sequence[Solid], root: str
+) -> dict[str, Place]:
+    """The places of tracks' parts, those doubtful that go with another body than the `root` of whose own parts, as
+    `found`, less than half of the surface is sure: what is surely a track may be on another body than that."""
+    sure: dict[str, float] = {}
+    for solid in solids:
+        place = found.get(solid.part.id)
+        if place is not None and place.body is not None and solid.part.id not in on_track:
+            sign = 1.0 if place.confidence >= REVIEW else -1.0
+            sure[place.body] = sure.get(place.body, 0.0) + sign * solid.surface
+    words = "; but what carries it is in doubt itself"
+    return {
+        part: replace(place, confidence=DOUBTFUL, reason=place.reason + words)
+        if place.body not in (root, None) and sure.get(str(place.body), 0.0) < 0.0
+        else place
+        for part, place in on_track.items()
+    }
 
 
 @dataclass(frozen=True, eq=False)
@@ -118,11 +139,12 @@ def _standing(i: int, around: _Surroundings) -> Place | None:
     best = max(tracks, key=lambda j: (round(touch.sunk(i, j), 3), -j))
     rival = max((touch.sunk(i, j) for j in near if j in around.others), default=-1.0)
     own, body, words = around.found.get(solids[i].part.id), around.on[best].body, f"stands on {around.on[best].role}"
+    sure = around.on[best].confidence
     if own is not None and own.body == body:
-        return replace(own, confidence=max(own.confidence, SURE), reason=words)
+        return replace(own, confidence=max(own.confidence, sure), reason=words)
     if own is not None and rival > touch.sunk(i, best):
         return replace(own, confidence=DOUBTFUL, reason=f"{own.reason}; but it {words}", runner_up=body)
-    return Place(body, body, SURE if rival < 0.0 else DOUBTFUL, words, how="touch")
+    return Place(body, body, sure if rival < 0.0 else DOUBTFUL, words, how="touch")
 
 
 def _side(role: Role) -> str:
