@@ -16,7 +16,7 @@ from yellowiron.model.errors import YellowironError
 from yellowiron.model.mechanism import Actuator, Mechanism
 from yellowiron.model.specification import fold
 
-SPOOL = 0.4
+SPOOL = 0.5
 """Seconds from a closed valve to one wide open, pilot line and pump with it: a 20 t excavator's joints begin to move
 0.31 to 0.93 s after they are told (dead times fitted to a ZX200, `Assets/Prefab/zx200.prefab` of
 pwri-opera/OperaSim-PhysX, 45d8a07)."""
