@@ -1,0 +1,81 @@
+"""A table over facing pages: the second has values alone, level with the rows that the first one labels."""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+from dataclasses import replace
+from itertools import groupby
+
+from yellowiron.specs.layout.statement import Statement, counting
+
+_FEWEST = 10
+"""Rows that are level with those of the page before, at least."""
+_MOST = 0.8
+"""Of the rows without labels that are level with labelled ones, at least."""
+_LEVEL = 1.0
+"""Points within which the middles of two rows are level."""
+
+_Row = Sequence[Statement]
+
+
+def with_labels(statements: Sequence[Statement]) -> list[Statement]:
+    """The statements of a sheet; those of a page whose rows have values and no labels, and are level with the rows of
+    the page before it, have the labels, sub-headings and units of those."""
+    found: list[Statement] = []
+    labelled: list[_Row] = []
+    last = 0
+    for page, group in groupby(statements, key=lambda s: s.page):
+        own = list(group)
+        rows = _rows(own)
+        bare = [row for row in rows if len(row) > 1 and not any(s.label for s in row)]
+        facing = [(row, said) for row in bare if (said := _level(row, labelled))] if page == last + 1 else []
+        if len(facing) >= _FEWEST and len(facing) >= _MOST * len(bare):
+            counts = {s for column in _columns(own) if _are_counts(column) for s in column}
+            given = {s: new for row, said in facing for s, new in zip(row, _said_by(row, said), strict=True)}
+            own = [given.get(s, s) for s in own if s not in counts]
+            rows = _rows(own)
+        labelled, last = [row for row in rows if all(s.label for s in row)], page
+        found += own
+    return found
+
+
+def _rows(statements: Sequence[Statement]) -> list[_Row]:
+    rows = {number: list(row) for number, row in groupby(statements, key=lambda s: s.row)}
+    return [sorted(row, key=lambda s: s.box[0]) for row in rows.values()]
+
+
+def _columns(statements: Sequence[Statement]) -> list[_Row]:
+    at: dict[tuple[float, float], list[Statement]] = {}
+    for statement in statements:
+        at.setdefault((statement.box[0], statement.box[2]), []).append(statement)
+    return list(at.values())
+
+
+def _are_counts(column: _Row) -> bool:
+    """Whether what was taken for values are the numbers of the rows."""
+    return len(column) >= _FEWEST and counting([s.text for s in column], 0.9)
+
+
+def _level(row: _Row, rows: Sequence[_Row]) -> _Row:
+    """The only one of some rows that a row is level with; none where two are."""
+    middle = sum(row[0].box[1::2]) / 2
+    level = [one for one in rows if abs(sum(one[0].box[1::2]) / 2 - middle) < _LEVEL]
+    return level[0] if len({(s.label, s.context) for one in level for s in one}) == 1 else ()
+
+
+def _said_by(row: _Row, said: _Row) -> list[Statement]:
+    """The values of a row with what the row level with it says of its own: one unit, or two of them in turn."""
+    units = [s.unit for s in said]
+    turns = [n for n in (1, 2) if not (len(row) % n or len(said) % n) and units == units[:n] * (len(said) // n)]
+    first = said[0]
+    return [
+        replace(
+            s,
+            label=first.label,
+            context=first.context,
+            section=first.section or s.section,
+            unit=s.unit or (units[i % turns[0]] if turns else ""),
+            variant=(),
+        )
+        for i, s in enumerate(row)
+    ]
