@@ -214,9 +214,11 @@ def without_case(text: str) -> str:
 
 def _expand(statement: Statement, style: DecimalStyle) -> Iterator[Claim]:
     text, unit = spelled_out(GRAVITATIONAL.sub("", statement.text), statement.unit)
+    label = _without_conditions(statement.label)
+    if opposed(label):
+        text = _PAIR.sub("/", text)  # "6-11" of "Tilt, forward/backward" is no range
     every = _without_chart(read(text, unit=unit, style=style))
     readings = [r for r in every if not r.condition]
-    label = _without_conditions(statement.label)
     yield from _at_radius(statement, label, every)
     kept: list[Reading] = []
     for reading in readings:
@@ -229,6 +231,9 @@ def _expand(statement: Statement, style: DecimalStyle) -> Iterator[Claim]:
         for one in own:
             for claim in _claims_of_reading(statement, one, reading):
                 yield replace(claim, ranged=True, low=ends[index]) if ends else claim
+
+
+_PAIR = re.compile(r"(?<=\d)\s?[-–]\s?(?=\d+\b)")
 
 
 def _without_chart(readings: Sequence[Reading]) -> Sequence[Reading]:
@@ -405,6 +410,15 @@ def names_model(label: str) -> bool:
     return _MODEL.fullmatch(label.strip()) is not None and not any(q.printed for r in read(label) for q in r.numbers)
 
 
+_BRIEF = re.compile(r"^(.*?)\s*\(([A-Z]{2,5})\)")
+
+
+def _are_initials(letters: str, text: str) -> bool:
+    """Whether letters are the first ones of a text's words, in their order: "MFH" of "Maximum fork height"."""
+    initials = iter(word[0].upper() for word in text.split())
+    return all(letter in initials for letter in letters)
+
+
 _SEE = re.compile(r"\((?:see|siehe|voir|véase|ver)\b[^()]*\)", re.IGNORECASE)
 
 
@@ -412,6 +426,7 @@ def _without_conditions(label: str) -> str:
     """A label without its circumstances in numbers with units: "Pump flow at 2,000 rpm" → "Pump flow"; and without what
     it sends the reader to: "(see tire chart)"."""
     label = _SEE.sub(" ", label)
+    label = _BRIEF.sub(lambda m: m.group(1) if _are_initials(m.group(2), m.group(1)) else m.group(0), label)
     for reading in reversed(read(label)):
         first, last = reading.numbers[0], reading.numbers[-1]
         if reading.condition and first.printed is not None and first.dimension != "angle":
