@@ -6,12 +6,15 @@ from collections.abc import Sequence
 from dataclasses import replace
 from itertools import groupby
 
-from yellowiron.specs.layout.statement import Statement, counting
+from yellowiron.specs.language.numbers import read
+from yellowiron.specs.layout.statement import Statement
 
-_FEWEST = 10
-"""Rows that are level with those of the page before, at least."""
+_FEWEST = 5
+"""Rows that go on those of the page before, at least."""
 _MOST = 0.8
-"""Of the rows without labels that are level with labelled ones, at least."""
+"""Of the rows without labels that go on labelled ones, at least."""
+_ALIKE = 3.0
+"""Times that a value of one machine may be that of its sister."""
 _LEVEL = 1.0
 """Points within which the middles of two rows are level."""
 
@@ -19,8 +22,8 @@ _Row = Sequence[Statement]
 
 
 def with_labels(statements: Sequence[Statement]) -> list[Statement]:
-    """The statements of a sheet; those of a page whose rows have values and no labels, and are level with the rows of
-    the page before it, have the labels, sub-headings and units of those."""
+    """The statements of a sheet; those of a page whose rows have values and no labels, and go on the rows of the page
+    before it (level with them, with values about as much), have the labels, sub-headings and units of those."""
     found: list[Statement] = []
     labelled: list[_Row] = []
     last = 0
@@ -30,9 +33,8 @@ def with_labels(statements: Sequence[Statement]) -> list[Statement]:
         bare = [row for row in rows if len(row) > 1 and not any(s.label for s in row)]
         facing = [(row, said) for row in bare if (said := _level(row, labelled))] if page == last + 1 else []
         if len(facing) >= _FEWEST and len(facing) >= _MOST * len(bare):
-            counts = {s for column in _columns(own) if _are_counts(column) for s in column}
             given = {s: new for row, said in facing for s, new in zip(row, _said_by(row, said), strict=True)}
-            own = [given.get(s, s) for s in own if s not in counts]
+            own = [given.get(s, s) for s in own]
             rows = _rows(own)
         labelled, last = [row for row in rows if all(s.label for s in row)], page
         found += own
@@ -44,23 +46,18 @@ def _rows(statements: Sequence[Statement]) -> list[_Row]:
     return [sorted(row, key=lambda s: s.box[0]) for row in rows.values()]
 
 
-def _columns(statements: Sequence[Statement]) -> list[_Row]:
-    at: dict[tuple[float, float], list[Statement]] = {}
-    for statement in statements:
-        at.setdefault((statement.box[0], statement.box[2]), []).append(statement)
-    return list(at.values())
-
-
-def _are_counts(column: _Row) -> bool:
-    """Whether what was taken for values are the numbers of the rows."""
-    return len(column) >= _FEWEST and counting([s.text for s in column], 0.9)
-
-
 def _level(row: _Row, rows: Sequence[_Row]) -> _Row:
-    """The only one of some rows that a row is level with; none where two are."""
+    """The only one of some rows that a row goes on; none where two are level with it."""
     middle = sum(row[0].box[1::2]) / 2
     level = [one for one in rows if abs(sum(one[0].box[1::2]) / 2 - middle) < _LEVEL]
-    return level[0] if len({(s.label, s.context) for one in level for s in one}) == 1 else ()
+    named = len({(s.label, s.context) for one in level for s in one}) == 1
+    return level[0] if named and _are_alike(row[0].text, level[0][0].text) else ()
+
+
+def _are_alike(a: str, b: str) -> bool:
+    """Whether two values are about as much: those of two machines of one series."""
+    first, second = (next((q.value for r in read(text) for q in r.numbers), 0.0) for text in (a, b))
+    return first == second or (first * second > 0 and 1 / _ALIKE < first / second < _ALIKE)
 
 
 def _said_by(row: _Row, said: _Row) -> list[Statement]:

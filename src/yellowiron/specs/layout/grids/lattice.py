@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import itertools
 from bisect import bisect_left, bisect_right
-from collections.abc import Sequence
+from collections.abc import Mapping, Sequence
 
 from yellowiron.specs.layout.grids.open_sided import joined, merged, side_walls
 from yellowiron.specs.layout.grids.partly_ruled import with_columns, with_rows, with_values_apart
@@ -129,21 +129,24 @@ def _grid(boxes: Sequence[Box], words: Sequence[Word]) -> TableGrid:
         place = (_slot(ys, (word.top + word.bottom) / 2), _slot(xs, (word.x0 + word.x1) / 2))
         inside.setdefault(place, []).append(word)
     cells = []
-    for box in boxes:
+    for box in sorted(boxes, key=lambda b: (b[1], b[0])):
         rows, columns = (_index(ys, box[1]), _index(ys, box[3])), (_index(xs, box[0]), _index(xs, box[2]))
-        own = [w for place in itertools.product(range(*rows), range(*columns)) for w in inside.pop(place, ())]
+        own = [w for place in itertools.product(range(*rows), range(*columns)) for w in inside.get(place, ())]
         cells.append(Cell(box, rows, columns, tuple(lines_of(own))))
-    cells += _in_holes([w for place, own in inside.items() if -1 not in place for w in own], cells, xs, ys)
+    cells += _in_holes(inside, cells, xs, ys)
     cells.sort(key=lambda c: (c.box[1], c.box[0]))
     return TableGrid(join_boxes(boxes), tuple(cells), len(ys) - 1, len(xs) - 1)
 
 
-def _in_holes(words: Sequence[Word], cells: Sequence[Cell], xs: Sequence[float], ys: Sequence[float]) -> list[Cell]:
+def _in_holes(
+    inside: Mapping[tuple[int, int], Sequence[Word]], cells: Sequence[Cell], xs: Sequence[float], ys: Sequence[float]
+) -> list[Cell]:
     """The cells of words that stand where no cell is drawn on all its sides: the rows and columns that they reach
     into, where those are free."""
     taken = {place for c in cells for place in itertools.product(range(*c.rows), range(*c.columns))}
     found: dict[tuple[tuple[int, int], tuple[int, int]], list[Word]] = {}
-    for piece in (p for line in lines_of(words) for p in line.pieces):
+    free = [w for place, own in inside.items() if place not in taken and -1 not in place for w in own]
+    for piece in (p for line in lines_of(free) for p in line.pieces):
         x0, top, x1, bottom = piece.box
         rim = 0.25 * (bottom - top)
         rows = (_slot(ys, top + rim), _slot(ys, bottom - rim) + 1)
