@@ -13,7 +13,7 @@ from yellowiron.specs.layout.rows.key_columns import without_keys
 from yellowiron.specs.layout.rows.lines import TextBlock, TextLine, bands
 from yellowiron.specs.layout.rows.prose import paragraphs_of, read_paragraph
 from yellowiron.specs.layout.rows.reader_state import ReaderState, TextColumn
-from yellowiron.specs.layout.rows.row_bands import split_if_separate
+from yellowiron.specs.layout.rows.row_bands import reaches_past, split_if_separate
 from yellowiron.specs.layout.rows.two_line_rows import unfolded
 from yellowiron.specs.layout.rows.value_rows import in_section, read_values
 from yellowiron.specs.layout.rows.word_rows import read_words
@@ -81,7 +81,7 @@ def _read_nth_row(
 ) -> None:
     """Reads a row: more of the label above, labels over their values, or labels beside them."""
     row, following = rows[index], rows[index + 1 : index + 2]
-    if _continue_label(row, following[0] if following else None, state, found):
+    if _is_said_of(row, state, found) or _continue_label(row, following[0] if following else None, state, found):
         return
     before = len(found)
     number = first_row + before + index
@@ -213,6 +213,24 @@ def _continue_label(
     if own:
         state.last = (row, indices, first)
     return bool(own)
+
+
+def _is_said_of(row: Sequence[TextLine], state: ReaderState, found: list[Statement]) -> bool:
+    """Gives the values of the row above what a line under them says of them: what configuration they are for."""
+    if state.last is None or len(row) != 1 or len(row[0].pieces) != 1:
+        return False
+    (*_, above), indices, label = state.last
+    line, begin = row[0], min((found[i].x0 for i in indices), default=0.0)
+    piece, first = line.pieces[0], above.pieces[0]
+    alike = piece.size <= first.size + 0.1 and piece.bold <= first.bold and line.top - above.bottom < 1.3 * piece.size
+    goes_on = first.text != label and abs(line.x0 - above.x0) < 1 and all(found[i].variant for i in indices)
+    if not alike or not (goes_on or reaches_past(line, above)) or begin <= line.x0:
+        return False
+    for index in indices:
+        said = (" ".join([*found[index].variant, line.text]),)
+        found[index] = replace(found[index], variant=said)
+    state.last = (row, indices, label)
+    return True
 
 
 def _label_orphans(line: TextLine, state: ReaderState, found: list[Statement]) -> bool:
