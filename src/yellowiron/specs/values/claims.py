@@ -162,10 +162,21 @@ def configured(claims: Sequence[Claim], config: str) -> list[Claim]:
     others: set[tuple[str, ...]] = set()
     for row in rows.values():
         columns = {s.column for s in row}
-        named = {column for column in columns if any(len(phrases_in(h)) > 0 and phrases_in(h) <= asked for h in column)}
+        named = {column for column in columns if any(_is_asked(head, asked) for head in column)}
         if named:
             others.update(columns - named)
     return _in_line(asked, [c for c in claims if c.statement.column not in others])
+
+
+def _is_asked(head: str, asked: AbstractSet[str]) -> bool:
+    own = phrases_in(head)
+    return bool(own) and (own <= asked or bool(sisters_in(head) & asked))
+
+
+def sisters_in(head: str) -> set[str]:
+    """The models of a head that names several, side by side: "CBD20-AC2 CBD20-AZ3"; without case."""
+    words = head.split()
+    return set(map(without_case, words)) if len(words) > 1 and all(map(names_model, words)) else set()
 
 
 def _in_line(asked: AbstractSet[str], claims: Sequence[Claim]) -> list[Claim]:
