@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import itertools
 from bisect import bisect_left, bisect_right
-from collections.abc import Mapping, Sequence
+from collections.abc import Sequence
 
 from yellowiron.specs.layout.grids.open_sided import joined, merged, side_walls
 from yellowiron.specs.layout.grids.partly_ruled import with_columns, with_rows, with_values_apart
@@ -133,32 +133,7 @@ def _grid(boxes: Sequence[Box], words: Sequence[Word]) -> TableGrid:
         rows, columns = (_index(ys, box[1]), _index(ys, box[3])), (_index(xs, box[0]), _index(xs, box[2]))
         own = [w for place in itertools.product(range(*rows), range(*columns)) for w in inside.get(place, ())]
         cells.append(Cell(box, rows, columns, tuple(lines_of(own))))
-    cells += _in_holes(inside, cells, xs, ys)
-    cells.sort(key=lambda c: (c.box[1], c.box[0]))
     return TableGrid(join_boxes(boxes), tuple(cells), len(ys) - 1, len(xs) - 1)
-
-
-def _in_holes(
-    inside: Mapping[tuple[int, int], Sequence[Word]], cells: Sequence[Cell], xs: Sequence[float], ys: Sequence[float]
-) -> list[Cell]:
-    """The cells of words that stand where no cell is drawn on all its sides: the rows and columns that they reach
-    into, where those are free."""
-    taken = {place for c in cells for place in itertools.product(range(*c.rows), range(*c.columns))}
-    found: dict[tuple[tuple[int, int], tuple[int, int]], list[Word]] = {}
-    free = [w for place, own in inside.items() if place not in taken and -1 not in place for w in own]
-    for piece in (p for line in lines_of(free) for p in line.pieces):
-        x0, top, x1, bottom = piece.box
-        rim = 0.25 * (bottom - top)
-        rows = (_slot(ys, top + rim), _slot(ys, bottom - rim) + 1)
-        columns = (_slot(xs, x0), _slot(xs, x1) + 1)
-        own = set(itertools.product(range(*rows), range(*columns)))
-        if min(rows[0], columns[0]) >= 0 and ((rows, columns) in found or (own and not own & taken)):
-            found.setdefault((rows, columns), []).extend(piece.words)
-            taken |= own
-    return [
-        Cell((xs[columns[0]], ys[rows[0]], xs[columns[1]], ys[rows[1]]), rows, columns, tuple(lines_of(own)))
-        for (rows, columns), own in found.items()
-    ]
 
 
 def _slot(stops: Sequence[float], value: float) -> int:
