@@ -64,15 +64,10 @@ def configured(claims: Sequence[Claim], config: str) -> list[Claim]:
     others: set[tuple[str, ...]] = set()
     for row in rows.values():
         columns = {s.column for s in row}
-        named = {column for column in columns if any(_is_asked(head, asked) for head in column)}
+        named = {c for c in columns for h in c if (o := phrases_in(h)) and (o <= asked or sisters_in(h) & asked)}
         if named:
             others.update(columns - named)
     return _in_line(asked, [c for c in claims if c.statement.column not in others])
-
-
-def _is_asked(head: str, asked: AbstractSet[str]) -> bool:
-    own = phrases_in(head)
-    return bool(own) and (own <= asked or bool(sisters_in(head) & asked))
 
 
 def _in_line(asked: AbstractSet[str], claims: Sequence[Claim]) -> list[Claim]:

@@ -50,14 +50,10 @@ def _level(row: _Row, rows: Sequence[_Row]) -> _Row:
     """The only one of some rows that a row goes on; none where two are level with it."""
     middle = sum(row[0].box[1::2]) / 2
     level = [one for one in rows if abs(sum(one[0].box[1::2]) / 2 - middle) < _LEVEL]
-    named = len({(s.label, s.context) for one in level for s in one}) == 1
-    return level[0] if named and _are_alike(row[0].text, level[0][0].text) else ()
-
-
-def _are_alike(a: str, b: str) -> bool:
-    """Whether two values are about as much: those of two machines of one series."""
-    first, second = (next((q.value for r in read(text) for q in r.numbers), 0.0) for text in (a, b))
-    return first == second or (first * second > 0 and 1 / _ALIKE < first / second < _ALIKE)
+    if len({(s.label, s.context) for one in level for s in one}) != 1:
+        return ()
+    a, b = (next((q.value for r in read(s.text) for q in r.numbers), 0.0) for s in (row[0], level[0][0]))
+    return level[0] if a == b or (a * b > 0 and 1 / _ALIKE < a / b < _ALIKE) else ()
 
 
 def _said_by(row: _Row, said: _Row) -> list[Statement]:

@@ -110,8 +110,9 @@ def _read_row(
         heading = column.heading(max(line.bottom for line in row), pieces[0].text)
         state.open_section(heading, tuple(pieces[1:]))
         return
-    if len(row) == 2 and _are_names(*sorted(row, key=lambda line: line.top)):
-        for line in sorted(row, key=lambda one: one.top):
+    ordered = sorted(row, key=lambda one: one.top)
+    if len(row) == 2 and _are_names(*ordered):
+        for line in ordered:
             state.add_heads(line.pieces)
         return
     if "value" in kinds and _are_heads(pieces, kinds, state):
@@ -123,7 +124,7 @@ def _read_row(
             state.add_heads(tuple(pieces))  # "Arm 2.4 m   Arm 2.9 m" names columns
             return
         if not inline:
-            for line in sorted(row, key=lambda one: one.top):
+            for line in ordered:
                 if not _label_orphans(line, state, found):
                     read_words(column, line, state)
             return
@@ -241,9 +242,8 @@ def _is_said_of(row: Sequence[TextLine], state: ReaderState, found: list[Stateme
     goes_on = first.text != label and abs(line.x0 - above.x0) < 1 and all(found[i].variant for i in indices)
     if not alike or not (goes_on or reaches_past(line, above)) or begin <= line.x0:
         return False
-    for index in indices:
-        said = (" ".join([*found[index].variant, line.text]),)
-        found[index] = replace(found[index], variant=said)
+    for i in indices:
+        found[i] = replace(found[i], variant=(" ".join([*found[i].variant, line.text]),))
     state.last = (row, indices, label)
     return True
 
