@@ -86,13 +86,10 @@ def _in_line(asked: AbstractSet[str], claims: Sequence[Claim]) -> list[Claim]:
             continue
         for (other_page, _), cells in rows.items():
             if other_page == page and len(cells) == len(heads) and cells[0].box[1] >= heads[0].box[1] - 1:
-                level = all(_overlap(a, b) for a, b in zip(_sorted(heads), _sorted(cells), strict=True))
+                pairs = zip(*(sorted(own, key=lambda s: s.box[0]) for own in (heads, cells)), strict=True)
+                level = all(_overlap(a, b) for a, b in pairs)
                 dropped.update(c for c in cells if level and not _overlap(named[0], c))
     return [c for c in claims if c.statement not in dropped]
-
-
-def _sorted(cells: Sequence[Statement]) -> list[Statement]:
-    return sorted(cells, key=lambda s: s.box[0])
 
 
 def _overlap(a: Statement, b: Statement) -> bool:

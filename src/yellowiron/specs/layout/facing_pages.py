@@ -9,14 +9,10 @@ from itertools import groupby
 from yellowiron.specs.language.numbers import read
 from yellowiron.specs.layout.statement import Statement
 
-_FEWEST = 5
-"""Rows that go on those of the page before, at least."""
-_MOST = 0.8
-"""Of the rows without labels that go on labelled ones, at least."""
-_ALIKE = 3.0
-"""Times that a value of one machine may be that of its sister."""
-_LEVEL = 1.0
-"""Points within which the middles of two rows are level."""
+_FEWEST, _MOST = 5, 0.8
+"""Rows without labels that go on those of the page before: so many, and such a share of all, at least."""
+_LEVEL, _ALIKE = 1.0, 3.0
+"""Points within which the middles of two rows are level, and times that a value may be that of a sister machine."""
 
 _Row = Sequence[Statement]
 
@@ -42,8 +38,7 @@ def with_labels(statements: Sequence[Statement]) -> list[Statement]:
 
 
 def _rows(statements: Sequence[Statement]) -> list[_Row]:
-    rows = {number: list(row) for number, row in groupby(statements, key=lambda s: s.row)}
-    return [sorted(row, key=lambda s: s.box[0]) for row in rows.values()]
+    return [sorted(row, key=lambda s: s.box[0]) for _, row in groupby(statements, key=lambda s: s.row)]
 
 
 def _level(row: _Row, rows: Sequence[_Row]) -> _Row:
@@ -62,13 +57,7 @@ def _said_by(row: _Row, said: _Row) -> list[Statement]:
     turns = [n for n in (1, 2) if not (len(row) % n or len(said) % n) and units == units[:n] * (len(said) // n)]
     first = said[0]
     return [
-        replace(
-            s,
-            label=first.label,
-            context=first.context,
-            section=first.section or s.section,
-            unit=s.unit or (units[i % turns[0]] if turns else ""),
-            variant=(),
-        )
+        replace(s, label=first.label, context=first.context, section=first.section or s.section, variant=(),
+                unit=s.unit or (units[i % turns[0]] if turns else ""))
         for i, s in enumerate(row)
-    ]
+    ]  # fmt: skip

@@ -175,7 +175,7 @@ def _expand(statement: Statement, style: DecimalStyle) -> Iterator[Claim]:
     text, unit = spelled_out(GRAVITATIONAL.sub("", statement.text), statement.unit)
     label = _without_conditions(statement.label)
     if opposed(label):
-        text = _PAIR.sub("/", text)  # "6-11" of "Tilt, forward/backward" is no range
+        text = re.sub(r"(?<=\d)\s?[-–]\s?(?=\d+\b)", "/", text)  # "6-11" of "Tilt, forward/backward" is no range
     every = _without_chart(read(text, unit=unit, style=style))
     readings = [r for r in every if not r.condition]
     yield from _at_radius(statement, label, every)
@@ -190,9 +190,6 @@ def _expand(statement: Statement, style: DecimalStyle) -> Iterator[Claim]:
         for one in own:
             for claim in _claims_of_reading(statement, one, reading):
                 yield replace(claim, ranged=True, low=ends[index]) if ends else claim
-
-
-_PAIR = re.compile(r"(?<=\d)\s?[-–]\s?(?=\d+\b)")
 
 
 def _without_chart(readings: Sequence[Reading]) -> Sequence[Reading]:

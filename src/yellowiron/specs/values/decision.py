@@ -200,7 +200,7 @@ def _configured(matches: Sequence[Match], sheets: Sheets, config: str) -> list[M
     kept = [_explained(m, said) for m in matches]
     for phrase, words in phrases_of(config).items():
         one = without_case(phrase)
-        named = [m for m in kept if any(one == without_case(h) or one in sisters_in(h) for h in configured_by(m.claim))]
+        named = [m for m in kept if any(one in {without_case(h), *sisters_in(h)} for h in configured_by(m.claim))]
         if named:  # a head that is the phrase, to the letter: "M12-L" is not "M12"
             kept = named
             continue

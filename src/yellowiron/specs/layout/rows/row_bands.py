@@ -26,8 +26,8 @@ def split_if_separate(row: Sequence[TextLine]) -> Iterator[Sequence[TextLine]]:
     elif before and _is_heading_under(last, before):
         yield from split_if_separate(before)
         yield (last,)
-    elif rest and _is_labelled(first) and reaches_past(rest[0], first):
-        yield from ((line,) for line in ordered)  # what the lines under a value say of it
+    elif rest and _is_labelled(first) and _reaches_past(rest[0], first):
+        yield (first,)  # what the lines under it say of the value is none of the label, and no row
     elif (sum(map(_is_labelled, row)) >= 2 and not _in_two_systems(ordered)) or _are_rows(ordered):
         for line in row:
             yield (line,)
@@ -52,14 +52,14 @@ def _is_heading_under(last: TextLine, before: Sequence[TextLine]) -> bool:
     of what follows."""
     worded = len(_words(last)) == 1 and kind_of(last.pieces[0]) == "text"
     bold = last.pieces[0].bold and not any(p.bold for line in before for p in line.pieces)
-    emphasised = bold and any(map(_is_labelled, before))
-    stands_out = _is_larger(last, before) or (emphasised and last.x0 <= min(line.x0 for line in before) + 1)
+    stands_out = _is_larger(last, before) or (
+        bold and any(map(_is_labelled, before)) and last.x0 <= min(line.x0 for line in before) + 1
+    )
     return worded and stands_out and last.top >= max(line.bottom for line in before) - 1
 
 
-def reaches_past(line: TextLine, row: TextLine) -> bool:
-    """Whether a line under a row's label and value goes on past where the value begins, as no line of the label does:
-    what it says, it says of the value ("Operating weight | 23 000 kg" over "5.7 m boom, 600 mm shoes")."""
+def _reaches_past(line: TextLine, row: TextLine) -> bool:
+    """Whether a line under a label and its value goes on past where that begins, as no line of the label does."""
     value = next((p for p in row.pieces if kind_of(p) == "value"), row.pieces[-1])
     return len(line.pieces) == 1 and row.x0 - 1 <= line.x0 < value.x0 - value.size and line.x1 > value.x0 + value.size
 

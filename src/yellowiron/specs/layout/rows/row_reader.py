@@ -13,7 +13,7 @@ from yellowiron.specs.layout.rows.key_columns import without_keys
 from yellowiron.specs.layout.rows.lines import TextBlock, TextLine, bands
 from yellowiron.specs.layout.rows.prose import paragraphs_of, read_paragraph
 from yellowiron.specs.layout.rows.reader_state import ReaderState, TextColumn
-from yellowiron.specs.layout.rows.row_bands import reaches_past, split_if_separate
+from yellowiron.specs.layout.rows.row_bands import split_if_separate
 from yellowiron.specs.layout.rows.two_line_rows import unfolded
 from yellowiron.specs.layout.rows.value_rows import in_section, read_values
 from yellowiron.specs.layout.rows.word_rows import read_words
@@ -81,7 +81,7 @@ def _read_nth_row(
 ) -> None:
     """Reads a row: more of the label above, labels over their values, or labels beside them."""
     row, following = rows[index], rows[index + 1 : index + 2]
-    if _is_said_of(row, state, found) or _continue_label(row, following[0] if following else None, state, found):
+    if _continue_label(row, following[0] if following else None, state, found):
         return
     before = len(found)
     number = first_row + before + index
@@ -110,11 +110,6 @@ def _read_row(
         heading = column.heading(max(line.bottom for line in row), pieces[0].text)
         state.open_section(heading, tuple(pieces[1:]))
         return
-    ordered = sorted(row, key=lambda one: one.top)
-    if len(row) == 2 and _are_names(*ordered):
-        for line in ordered:
-            state.add_heads(line.pieces)
-        return
     if "value" in kinds and _are_heads(pieces, kinds, state):
         state.heads.append(tuple(pieces))
         return
@@ -124,7 +119,7 @@ def _read_row(
             state.add_heads(tuple(pieces))  # "Arm 2.4 m   Arm 2.9 m" names columns
             return
         if not inline:
-            for line in ordered:
+            for line in sorted(row, key=lambda one: one.top):
                 if not _label_orphans(line, state, found):
                     read_words(column, line, state)
             return
@@ -140,17 +135,6 @@ def _are_designations(pieces: Sequence[TextPiece]) -> bool:
     """Whether a row names columns by numbers with letters: "Blade   8 SU   8 U   8 SU LGP"; "24 V" is no name."""
     names = [p.bare for p in pieces[1:] if _DESIGNATION.fullmatch(p.bare)]
     return 1 < len(names) == len(pieces) - 1 and any(re.search(r"[A-Z]{2}", name) for name in names)
-
-
-def _are_names(names: TextLine, sizes: TextLine) -> bool:
-    """Whether two bold lines name columns, each by its name and its size in brackets under it: "Stick   R3.9   R3.2"
-    over "(12'10\")   (10'6\")"."""
-    bold = all(p.bold for p in (*names.pieces, *sizes.pieces))
-    bracketed = len(sizes.pieces) > 1 and all(p.text.startswith("(") and kind_of(p) == "value" for p in sizes.pieces)
-    over = names.pieces[-len(sizes.pieces) :]
-    return bold and bracketed and len(names.pieces) == len(over) + 1 and all(
-        n.x0 < s.x1 and s.x0 < n.x1 and kind_of(n) != "value" for n, s in zip(over, sizes.pieces, strict=True)
-    )  # fmt: skip
 
 
 def _captioned(above: Sequence[TextLine], row: Sequence[TextLine], following: Sequence[Sequence[TextLine]]) -> bool:
@@ -229,23 +213,6 @@ def _continue_label(
     if own:
         state.last = (row, indices, first)
     return bool(own)
-
-
-def _is_said_of(row: Sequence[TextLine], state: ReaderState, found: list[Statement]) -> bool:
-    """Gives the values of the row above what a line under them says of them: what configuration they are for."""
-    if state.last is None or len(row) != 1 or len(row[0].pieces) != 1:
-        return False
-    (*_, above), indices, label = state.last
-    line, begin = row[0], min((found[i].x0 for i in indices), default=0.0)
-    piece, first = line.pieces[0], above.pieces[0]
-    alike = piece.size <= first.size + 0.1 and piece.bold <= first.bold and line.top - above.bottom < 1.3 * piece.size
-    goes_on = first.text != label and abs(line.x0 - above.x0) < 1 and all(found[i].variant for i in indices)
-    if not alike or not (goes_on or reaches_past(line, above)) or begin <= line.x0:
-        return False
-    for i in indices:
-        found[i] = replace(found[i], variant=(" ".join([*found[i].variant, line.text]),))
-    state.last = (row, indices, label)
-    return True
 
 
 def _label_orphans(line: TextLine, state: ReaderState, found: list[Statement]) -> bool:
