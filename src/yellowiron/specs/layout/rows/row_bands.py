@@ -51,10 +51,8 @@ def _is_heading_under(last: TextLine, before: Sequence[TextLine]) -> bool:
     """Whether the last line is words alone, larger than the lines over it, or bold under a row that is not: the heading
     of what follows."""
     worded = len(_words(last)) == 1 and kind_of(last.pieces[0]) == "text"
-    bold = last.pieces[0].bold and not any(p.bold for line in before for p in line.pieces)
-    stands_out = _is_larger(last, before) or (
-        bold and any(map(_is_labelled, before)) and last.x0 <= min(line.x0 for line in before) + 1
-    )
+    bold = last.pieces[0].bold and any(map(_is_labelled, before)) and not any(p.bold for b in before for p in b.pieces)
+    stands_out = _is_larger(last, before) or (bold and last.x0 <= min(line.x0 for line in before) + 1)
     return worded and stands_out and last.top >= max(line.bottom for line in before) - 1
 
 
