@@ -28,7 +28,7 @@ def split_if_separate(row: Sequence[TextLine]) -> Iterator[Sequence[TextLine]]:
         yield (last,)
     elif rest and _is_labelled(first) and _reaches_past(rest[0], first):
         yield (first,)  # what the lines under it say of the value is none of the label, and no row
-    elif (sum(map(_is_labelled, row)) >= 2 and not _in_two_systems(ordered)) or _are_rows(ordered):
+    elif (sum(map(_is_labelled, row)) >= 2 or _are_rows(ordered)) and not _in_two_systems(ordered):
         for line in row:
             yield (line,)
     else:
