@@ -216,7 +216,7 @@ def _without_keys(grid: TableGrid) -> TableGrid:
             continue
         counted = len(own) >= MANY and counting(texts, 0.9)
         placed = counted or all(_begins(grid, c) for c in own)
-        alone = counted and column == 0 and texts[0] == "1"  # the labels are on the page before
+        alone = counted and column == 0 and texts[0] == "1" and len(own) >= 10  # labels: on the page before
         bare = 0 if alone else sum(not _worded(grid, c, counted=counted) for c in own)
         if numbers and not (placed and ascending(list(dict.fromkeys(texts))) and bare <= few):
             continue
