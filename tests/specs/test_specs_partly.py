@@ -8,11 +8,12 @@ import pytest
 from reportlab.pdfgen.canvas import Canvas
 from specs_layouts import canvas, put, template, wanted
 
+from yellowiron.specs.columns import configured
 from yellowiron.specs.extraction import from_sheets
 from yellowiron.specs.language.numbers import read
 from yellowiron.specs.layout.statement import Statement, is_unit, unit_of_heading
 from yellowiron.specs.reader import read_sheet
-from yellowiron.specs.values.claims import claims_of, configured
+from yellowiron.specs.values.claims import claims_of
 from yellowiron.specs.values.enumerations import alternatives, enumerated
 
 _ROWS = (("Overall length", "7,900", "8,120"), ("Wheelbase", "3,200", "3,300"), ("Overall width", "2,580", "2,680"),

@@ -3,11 +3,12 @@
 from __future__ import annotations
 
 from collections.abc import Sequence
+from collections.abc import Set as AbstractSet
 from dataclasses import dataclass
 
 from yellowiron.specs.layout.statement import Statement, is_key, is_unit
 from yellowiron.specs.reader import Sheet
-from yellowiron.specs.values.claims import is_system
+from yellowiron.specs.values.claims import Claim, is_system, phrases_in, sisters_in, without_case
 
 _FEWEST = 3
 """Values under a head that name a column; a table with fewer is none of specifications."""
@@ -50,3 +51,46 @@ def columns_of(sheets: Sequence[Sheet]) -> list[SheetColumn]:
 def _names_one(head: str) -> bool:
     """Whether a head may name a model or a configuration: it has letters, and is no unit, system or drawing's key."""
     return any(map(str.isalpha, head)) and not (is_unit(head) or is_system(head) or is_key(head))
+
+
+def configured(claims: Sequence[Claim], config: str) -> list[Claim]:
+    """The claims without those of other columns than the one that a configuration names to the letter: columns that
+    stand beside it in some row, whether or not it has a value in theirs."""
+    asked = phrases_in(config)
+    rows: dict[tuple[int, int], list[Statement]] = {}
+    for claim in claims:
+        if claim.statement.column:
+            rows.setdefault((claim.statement.page, claim.statement.row), []).append(claim.statement)
+    others: set[tuple[str, ...]] = set()
+    for row in rows.values():
+        columns = {s.column for s in row}
+        named = {c for c in columns for h in c if (o := phrases_in(h)) and (o <= asked or sisters_in(h) & asked)}
+        if named:
+            others.update(columns - named)
+    return _in_line(asked, [c for c in claims if c.statement.column not in others])
+
+
+def _in_line(asked: AbstractSet[str], claims: Sequence[Claim]) -> list[Claim]:
+    """The claims without those of other columns than the one at whose head a value stands that the configuration names
+    to the letter ("2.9 m" beside "Arm length"): where each cell of a row is in line with one of the values there, only
+    the cell under that one."""
+    rows: dict[tuple[int, int], list[Statement]] = {}
+    for claim in claims:
+        row = rows.setdefault((claim.statement.page, claim.statement.row), [])
+        if claim.statement not in row:
+            row.append(claim.statement)
+    dropped: set[Statement] = set()
+    for (page, _), heads in rows.items():
+        named = [s for s in heads if without_case(s.text) in asked]
+        if len(named) != 1 or len(heads) < 2:
+            continue
+        for (other_page, _), cells in rows.items():
+            if other_page == page and len(cells) == len(heads) and cells[0].box[1] >= heads[0].box[1] - 1:
+                pairs = zip(*(sorted(own, key=lambda s: s.box[0]) for own in (heads, cells)), strict=True)
+                level = all(_overlap(a, b) for a, b in pairs)
+                dropped.update(c for c in cells if level and not _overlap(named[0], c))
+    return [c for c in claims if c.statement not in dropped]
+
+
+def _overlap(a: Statement, b: Statement) -> bool:
+    return a.box[0] < b.box[2] and b.box[0] < a.box[2]

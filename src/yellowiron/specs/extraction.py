@@ -14,6 +14,7 @@ from yellowiron.model.finding import Finding
 from yellowiron.model.specification import Specification, Specifications
 from yellowiron.model.template import Template, Wanted
 from yellowiron.specs import ocr
+from yellowiron.specs.columns import configured
 from yellowiron.specs.findings import ignored_phrases, model_cost, model_failure, unread_pages, unusable_answers
 from yellowiron.specs.language.decimal_style import DecimalStyle, decimal_style
 from yellowiron.specs.layout.nearest import Near
@@ -21,7 +22,7 @@ from yellowiron.specs.llm.agreement import Asked, agreed
 from yellowiron.specs.llm.page_reader import Reading, pages_of, read_pages
 from yellowiron.specs.machines import of_others, of_sisters, several, with_machines
 from yellowiron.specs.reader import MEMORY_MB, RESIDENT_MB, TIMEOUT_S, Sheet, check_file
-from yellowiron.specs.values.claims import Claim, claims_of, configured
+from yellowiron.specs.values.claims import Claim, claims_of
 from yellowiron.specs.values.cross_check import second_reading, stands_in
 from yellowiron.specs.values.decision import Column, Sheets, decide, missing, placed, quantity_words, unreadable
 from yellowiron.specs.values.matching import match

@@ -10,8 +10,8 @@ from pathlib import Path
 
 from yellowiron.model.errors import SheetError
 from yellowiron.specs.language.decimal_style import DecimalStyle, decimal_style
+from yellowiron.specs.layout.facing_pages import with_labels
 from yellowiron.specs.layout.nearest import Near, nearest_of
-from yellowiron.specs.layout.numbered_rows import with_labels, with_numbers
 from yellowiron.specs.layout.page_cells import Cell, cells_of
 from yellowiron.specs.layout.router import statements_of
 from yellowiron.specs.layout.rows.lines import TextLine, lines_of
@@ -105,7 +105,7 @@ def read_sheet(path: Path) -> Sheet:
                 ) from error
             titles.append(titled(page))
             if page.readable:
-                statements.extend(with_numbers(proven(statements_of(page), page), page))
+                statements.extend(proven(statements_of(page), page))
                 texts.append(" ".join(w.text for w in page.words))
                 stated.extend(stated_in(texts[-1], number))
                 near.extend(nearest_of(page))

@@ -94,9 +94,8 @@ class Statement:
     the cells of one row. `quote` is what the page prints, pieces that stand apart joined by " … "; `heads`
     are the lines over the column as printed, for a quote that needs them. `proven`: whether each part of the quote
     stands together in the file's own text; `running`: whether it is said in a sentence; `guessed`: whether it was read
-    from the page's picture. `sheet` is the number of its sheet among those read together, from 0. `key` is the number
-    of its row and how many there are ("12/58"), where the page's rows are counted. `slipped`: whether its unit stands
-    one row too high or too low.
+    from the page's picture. `sheet` is the number of its sheet among those read together, from 0. `slipped`:
+    whether its unit stands one row too high or too low.
     """
 
     page: int
@@ -117,7 +116,6 @@ class Statement:
     running: bool = False
     guessed: bool = False
     sheet: int = 0
-    key: str = ""
     slipped: bool = False
 
 

@@ -4,7 +4,6 @@ from __future__ import annotations
 
 import re
 from collections.abc import Iterator, Sequence
-from collections.abc import Set as AbstractSet
 from dataclasses import dataclass, replace
 from itertools import pairwise
 
@@ -151,50 +150,10 @@ def _with_units(claims: Sequence[Claim]) -> list[Claim]:
     return found
 
 
-def configured(claims: Sequence[Claim], config: str) -> list[Claim]:
-    """The claims without those of other columns than the one that a configuration names to the letter: columns that
-    stand beside it in some row, whether or not it has a value in theirs."""
-    asked = phrases_in(config)
-    rows: dict[tuple[int, int], list[Statement]] = {}
-    for claim in claims:
-        if claim.statement.column:
-            rows.setdefault((claim.statement.page, claim.statement.row), []).append(claim.statement)
-    others: set[tuple[str, ...]] = set()
-    for row in rows.values():
-        columns = {s.column for s in row}
-        named = {column for column in columns if any(len(phrases_in(h)) > 0 and phrases_in(h) <= asked for h in column)}
-        if named:
-            others.update(columns - named)
-    return _in_line(asked, [c for c in claims if c.statement.column not in others])
-
-
-def _in_line(asked: AbstractSet[str], claims: Sequence[Claim]) -> list[Claim]:
-    """The claims without those of other columns than the one at whose head a value stands that the configuration names
-    to the letter ("2.9 m" beside "Arm length"): where each cell of a row is in line with one of the values there, only
-    the cell under that one."""
-    rows: dict[tuple[int, int], list[Statement]] = {}
-    for claim in claims:
-        row = rows.setdefault((claim.statement.page, claim.statement.row), [])
-        if claim.statement not in row:
-            row.append(claim.statement)
-    dropped: set[Statement] = set()
-    for (page, _), heads in rows.items():
-        named = [s for s in heads if without_case(s.text) in asked]
-        if len(named) != 1 or len(heads) < 2:
-            continue
-        for (other_page, _), cells in rows.items():
-            if other_page == page and len(cells) == len(heads) and cells[0].box[1] >= heads[0].box[1] - 1:
-                level = all(_overlap(a, b) for a, b in zip(_sorted(heads), _sorted(cells), strict=True))
-                dropped.update(c for c in cells if level and not _overlap(named[0], c))
-    return [c for c in claims if c.statement not in dropped]
-
-
-def _sorted(cells: Sequence[Statement]) -> list[Statement]:
-    return sorted(cells, key=lambda s: s.box[0])
-
-
-def _overlap(a: Statement, b: Statement) -> bool:
-    return a.box[0] < b.box[2] and b.box[0] < a.box[2]
+def sisters_in(head: str) -> set[str]:
+    """The models of a head that names several, side by side: "CBD20-AC2 CBD20-AZ3"; without case."""
+    words = head.split()
+    return set(map(without_case, words)) if len(words) > 1 and all(map(names_model, words)) else set()
 
 
 def phrases_in(text: str) -> set[str]:
@@ -215,9 +174,11 @@ def without_case(text: str) -> str:
 def _expand(statement: Statement, style: DecimalStyle) -> Iterator[Claim]:
     whole, text = without_value_of_label(statement)
     text, unit = spelled_out(GRAVITATIONAL.sub("", text), statement.unit)
+    label = _without_conditions(whole)
+    if opposed(label):
+        text = re.sub(r"(?<=\d)\s?[-–]\s?(?=\d+\b)", "/", text)  # "6-11" of "Tilt, forward/backward" is no range
     every = _without_chart(read(text, unit=unit, style=style))
     readings = [r for r in every if not r.condition]
-    label = _without_conditions(whole)
     yield from _at_radius(statement, label, every)
     kept: list[Reading] = []
     for reading in readings:

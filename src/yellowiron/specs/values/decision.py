@@ -14,7 +14,7 @@ from yellowiron.specs.language.quantities import Quantity, same
 from yellowiron.specs.language.vocabulary import tokens
 from yellowiron.specs.layout.statement import Statement, words_beside_numbers
 from yellowiron.specs.pages.strokes import Box
-from yellowiron.specs.values.claims import Claim, configured_by, names_model, split_phrases, without_case
+from yellowiron.specs.values.claims import Claim, configured_by, names_model, sisters_in, split_phrases, without_case
 from yellowiron.specs.values.contention import Match, of_another_place
 from yellowiron.specs.values.requested import check_hint, hint_for, usual
 from yellowiron.specs.values.series import called, extremes, first_of_two
@@ -199,7 +199,8 @@ def _configured(matches: Sequence[Match], sheets: Sheets, config: str) -> list[M
     said = set(tokens(config))
     kept = [_explained(m, said) for m in matches]
     for phrase, words in phrases_of(config).items():
-        named = [m for m in kept if any(without_case(phrase) == without_case(h) for h in configured_by(m.claim))]
+        one = without_case(phrase)
+        named = [m for m in kept if any(one in {without_case(h), *sisters_in(h)} for h in configured_by(m.claim))]
         if named:  # a head that is the phrase, to the letter: "M12-L" is not "M12"
             kept = named
             continue

@@ -249,7 +249,7 @@ def _cut(words: str, head: str, column: tuple[str, ...], context: tuple[str, ...
 
 
 _LEADS = re.compile(r"[:：]\s*$")
-_STANDARD = re.compile(r"\b(?:with|mit|avec|con)\s+(?:std\b|standard|basic|est[aá]ndar|serien)[^,;:/]*$", re.IGNORECASE)
+_STANDARD = re.compile(r"\b(?:with|mit|avec|con)\s+(?:\w+ )?(?:std\b|standard|basic|est[aá]ndar|serien)[^,;:/]*$", re.I)
 
 
 def match_one(wanted: Wanted, claim: Claim, among: Sequence[Wanted] = ()) -> Match | None:

@@ -159,7 +159,8 @@ def _heads_none(grid: TableGrid, filled: Sequence[Cell], heads: Sequence[int], *
     single = first == grid.columns - 1 and not names_models(" ".join(labels))
     plain = (single or (below and apart)) and not all(map(_is_bold, filled))
     none = plain or spanning or names_no_columns([" ".join(labels), *cells])
-    return bool(labels) and none and not any(map(is_unit, cells))
+    same = bool(heads) and len(set(cells)) == 1 < len(cells)  # also where the labels are on the page before
+    return (bool(labels) or same) and none and not any(map(is_unit, cells))
 
 
 def _values_of(filled: Sequence[Cell]) -> list[Cell]:
@@ -215,7 +216,8 @@ def _without_keys(grid: TableGrid) -> TableGrid:
             continue
         counted = len(own) >= MANY and counting(texts, 0.9)
         placed = counted or all(_begins(grid, c) for c in own)
-        bare = sum(not _worded(grid, c, counted=counted) for c in own)
+        alone = counted and column == 0 and texts[0] == "1" and len(own) >= 10  # labels: on the page before
+        bare = 0 if alone else sum(not _worded(grid, c, counted=counted) for c in own)
         if numbers and not (placed and ascending(list(dict.fromkeys(texts))) and bare <= few):
             continue
         keys.update(c for c in own if not _LISTED.fullmatch(c.text))  # "s/e/l" says what its three values are

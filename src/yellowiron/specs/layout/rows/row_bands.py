@@ -7,7 +7,6 @@ from collections.abc import Iterator, Sequence
 from yellowiron.specs.language.numbers import read
 from yellowiron.specs.language.quantities import same
 from yellowiron.specs.layout.rows.cells import cells_of
-from yellowiron.specs.layout.rows.headings import in_capitals
 from yellowiron.specs.layout.rows.lines import TextLine
 from yellowiron.specs.layout.statement import TextPiece, kind_of, unit_in_label, words_beside_numbers
 from yellowiron.specs.layout.tolerances import INDENT, LARGER
@@ -27,7 +26,9 @@ def split_if_separate(row: Sequence[TextLine]) -> Iterator[Sequence[TextLine]]:
     elif before and _is_heading_under(last, before):
         yield from split_if_separate(before)
         yield (last,)
-    elif sum(map(_is_labelled, row)) >= 2 and not _in_two_systems(ordered):
+    elif rest and _is_labelled(first) and _reaches_past(rest[0], first):
+        yield (first,)  # what the lines under it say of the value is none of the label, and no row
+    elif (sum(map(_is_labelled, row)) >= 2 or _are_rows(ordered)) and not _in_two_systems(ordered):
         for line in row:
             yield (line,)
     else:
@@ -47,16 +48,24 @@ def _is_heading_over(first: TextLine, rest: Sequence[TextLine]) -> bool:
 
 
 def _is_heading_under(last: TextLine, before: Sequence[TextLine]) -> bool:
-    """Whether the last line is words alone, larger than the lines over it, or bold capitals under a row of neither: the
-    heading of what follows."""
+    """Whether the last line is words alone, larger than the lines over it, or bold under a row that is not: the heading
+    of what follows."""
     worded = len(_words(last)) == 1 and kind_of(last.pieces[0]) == "text"
-    emphasised = _is_emphasised(last) and any(map(_is_labelled, before)) and not any(map(_is_emphasised, before))
-    stands_out = _is_larger(last, before) or (emphasised and last.x0 <= min(line.x0 for line in before) + 1)
+    bold = last.pieces[0].bold and any(map(_is_labelled, before)) and not any(p.bold for b in before for p in b.pieces)
+    stands_out = _is_larger(last, before) or (bold and last.x0 <= min(line.x0 for line in before) + 1)
     return worded and stands_out and last.top >= max(line.bottom for line in before) - 1
 
 
-def _is_emphasised(line: TextLine) -> bool:
-    return any(p.bold and in_capitals(p) for p in line.pieces)
+def _reaches_past(line: TextLine, row: TextLine) -> bool:
+    """Whether a line under a label and its value goes on past where that begins, as no line of the label does."""
+    value = next((p for p in row.pieces if kind_of(p) == "value"), row.pieces[-1])
+    return len(line.pieces) == 1 and row.x0 - 1 <= line.x0 < value.x0 - value.size and line.x1 > value.x0 + value.size
+
+
+def _are_rows(lines: Sequence[TextLine]) -> bool:
+    """Whether lines are a label and what stands beside it each, level with those of the others."""
+    begins = {(round(line.x0), round(line.pieces[1].x0)) for line in lines if len(line.pieces) > 1}
+    return len(begins) == 1 and all(len(line.pieces) > 1 for line in lines) and any(map(_is_labelled, lines))
 
 
 def _is_larger(line: TextLine, others: Sequence[TextLine]) -> bool:
