@@ -154,16 +154,17 @@ _LOADED = {"lift", "load", "radius", "capacity"}
 
 
 _SENTENCE = 8
-"""So many words over a value are a sentence, which advertises one machine of a series."""
+"""So many words over a value, its own name among them, are a sentence that praises one machine of a series."""
 
 
 def of_another_place(found: Match) -> str:
     """Why a value is in doubt that stands over a chart of loads and says what the chart holds for, or under a sentence
     that praises it."""
-    section, alone = found.claim.statement.section, not found.claim.statement.column
+    section = found.claim.statement.section
     charted = _CHART.search(section) is not None and not read(section)
     if charted and found.wanted.dimension != "mass" and not _LOADED & set(tokens(found.wanted.name)):
         return f"the chart '{section}' holds for it"
-    if alone and len(section.split()) >= _SENTENCE:
+    praised = len(section.split()) >= _SENTENCE and set(tokens(found.phrase)) <= set(tokens(section))
+    if praised and not found.claim.statement.column:
         return f"it stands under '{section}'"
     return ""

@@ -1,0 +1,95 @@
+"""What came `ok` and was wrong when makers' brochures that nobody had opened were read for the first time."""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+
+import pytest
+from specs_layouts import template, wanted
+
+from yellowiron.model.template import Wanted
+from yellowiron.specs.extraction import from_sheets
+from yellowiron.specs.layout.rows.lines import lines_of
+from yellowiron.specs.layout.rows.prose import read_paragraph
+from yellowiron.specs.layout.statement import Statement
+from yellowiron.specs.pages.words import Word
+from yellowiron.specs.reader import Sheet
+
+
+def row(number: int, label: str, text: str, **more: object) -> Statement:
+    top = 20.0 * number
+    return Statement(1, number, label, text, (200.0, top, 260.0, top + 9.0), f"{label} {text}", **more)  # type: ignore[arg-type]
+
+
+def found(asked: Sequence[Wanted], *rows: Statement, config: str = "") -> dict[str, tuple[str, float | None]]:
+    sheet = Sheet("a.pdf", 1, rows, (), "point")
+    return {s.name: (s.status, s.value) for s in from_sheets(template(*asked), [sheet], config=config)}
+
+
+def test_a_value_that_a_narrow_gap_left_at_its_label_is_said_again_in_inches() -> None:
+    asked = [wanted("Bucket Cylinder Stroke", "length")]
+    values = found(asked, row(1, "Family Bucket Cylinder – Stroke 1156 mm", "46 in"))
+    assert values["Bucket Cylinder Stroke"][1] == pytest.approx(1.156)
+    # What a label's number holds for is none of its values.
+    assert found(asked, row(1, "Bucket Cylinder Stroke at 1156 mm", "46 in"))["Bucket Cylinder Stroke"][1] != 1.156
+
+
+def test_a_row_under_what_adds_to_a_length_is_no_height() -> None:
+    asked = [wanted("Ripper Lift Height", "length", "ripper raised")]
+    for above, status in (("add to basic tractor length:", "missing"), ("Ripper", "ok")):
+        values = found(asked, row(1, "Ripper (raised)", "992 mm", context=(above,)))
+        assert values["Ripper Lift Height"][0] == status
+
+
+def test_a_bare_measure_in_an_implement_s_table_is_for_review() -> None:
+    asked = [wanted("Overall Height", "length", "height"), wanted("Blade Tilt", "length", "maximum tilt"),
+             wanted("Blade Digging Depth", "length", "digging depth")]  # fmt: skip
+    rows = [row(1, "Height", "1343 mm"), row(2, "Digging depth", "668 mm"), row(3, "Maximum tilt", "686 mm")]
+    assert found(asked, *rows)["Overall Height"][0] == "review"
+    assert found(asked, *rows[:2])["Overall Height"] == ("ok", pytest.approx(1.343))
+
+
+@pytest.mark.parametrize(("config", "width", "power"), [("STD", 0.56, 131e3), ("LGP", 0.915, 145e3)])
+def test_labels_and_headings_name_configurations_at_their_ends(config: str, width: float, power: float) -> None:
+    asked = [wanted("Track Gauge", "length"), wanted("Shoe Width", "length"), wanted("Net Power", "power")]
+    rows = [
+        *(row(1, "Track gauge", text, column=(head,)) for head, text in
+          (("STD", "1880 mm"), ("XL", "1880 mm"), ("LGP", "2286 mm"))),
+        row(2, "Shoe width – STD/XL", "560 mm"), row(3, "Shoe width – LGP", "915 mm"),
+        row(4, "Net power", "131 kW", section="Engine – STD"),
+        row(5, "Net power", "145 kW", section="Engine – XL/LGP"),
+    ]  # fmt: skip
+    values = found(asked, *rows, config=config)
+    assert values["Shoe Width"] == ("ok", pytest.approx(width))
+    assert values["Net Power"] == ("ok", pytest.approx(power))
+
+
+def test_what_a_chart_of_loads_holds_for_is_for_review() -> None:
+    asked = [wanted("Arm Length", "length", "stick"), wanted("Lift Capacity", "mass")]
+    for section, status in (("Mass Boom Lift Capacities", "review"), ("Sticks", "ok")):
+        assert found(asked, row(1, "Stick", "2.4 m", section=section))["Arm Length"][0] == status
+
+
+def test_what_a_sentence_over_it_praises_is_for_review() -> None:
+    asked = [wanted("Lift Speed", "speed")]
+    praised = "Best in class lift speeds ensure fast and efficient cycle times"
+    for section, status in ((praised, "review"), ("A truck of the new series with all its data here", "ok")):
+        assert found(asked, row(1, "Lift speed", "470 mm/s", section=section))["Lift Speed"][0] == status
+
+
+def test_a_label_that_begins_with_its_number_is_no_value_of_a_name_that_has_one() -> None:
+    asked = [wanted("Digging Depth 2.44 m Level Bottom", "length", "level bottom")]
+    assert found(asked, row(1, "", "2240 mm Level Bottom"))["Digging Depth 2.44 m Level Bottom"][0] == "missing"
+
+
+def test_of_names_what_a_quantity_in_a_sentence_is() -> None:
+    words, x = [], 10.0
+    for text in ["The", "boom", "combined", "with", "the", "stick", "provides", "a", "8.9", "m", "of", "dig", "depth."]:
+        words.append(Word(text, x, x + 4.0 * len(text), 100.0, 8.0))
+        x += 4.0 * len(text) + 3.0
+    (one,) = read_paragraph(1, lines_of(words), 0, "")
+    assert one.text == "8.9 m" and one.label.endswith("provides a dig depth")
+    values = found(
+        [wanted("Arm Length", "length", "stick"), wanted("Maximum Digging Depth", "length", "dig depth")], one
+    )
+    assert values["Arm Length"][0] != "ok"
