@@ -3,9 +3,10 @@
 from __future__ import annotations
 
 from collections.abc import Sequence
+from pathlib import Path
 
 import pytest
-from specs_layouts import template, wanted
+from specs_layouts import canvas, put, template, wanted
 
 from yellowiron.model.template import Wanted
 from yellowiron.specs.extraction import from_sheets
@@ -13,7 +14,7 @@ from yellowiron.specs.layout.rows.lines import lines_of
 from yellowiron.specs.layout.rows.prose import read_paragraph
 from yellowiron.specs.layout.statement import Statement
 from yellowiron.specs.pages.words import Word
-from yellowiron.specs.reader import Sheet
+from yellowiron.specs.reader import Sheet, read_sheet
 
 
 def row(number: int, label: str, text: str, **more: object) -> Statement:
@@ -41,12 +42,32 @@ def test_a_row_under_what_adds_to_a_length_is_no_height() -> None:
         assert values["Ripper Lift Height"][0] == status
 
 
-def test_a_bare_measure_in_an_implement_s_table_is_for_review() -> None:
-    asked = [wanted("Overall Height", "length", "height"), wanted("Blade Tilt", "length", "maximum tilt"),
-             wanted("Blade Digging Depth", "length", "digging depth")]  # fmt: skip
-    rows = [row(1, "Height", "1343 mm"), row(2, "Digging depth", "668 mm"), row(3, "Maximum tilt", "686 mm")]
-    assert found(asked, *rows)["Overall Height"][0] == "review"
-    assert found(asked, *rows[:2])["Overall Height"] == ("ok", pytest.approx(1.343))
+def test_a_maker_s_bulldozer_is_a_blade_with_what_moves_it() -> None:
+    asked = [wanted("Overall Height", "length", "height", forbidden=("blade",)), wanted("Blade Height", "length")]
+    values = found(asked, row(1, "Height", "1343 mm", section="Bulldozer Specifications"))
+    assert (values["Overall Height"][0], values["Blade Height"]) == ("missing", ("ok", pytest.approx(1.343)))
+
+
+def test_columns_are_named_by_bold_names_over_their_sizes(tmp_path: Path) -> None:
+    c = canvas(tmp_path / "a.pdf")
+    rows = [
+        ("Stick Options", "R3.2", "R2.9"),
+        ("", "(10'6\")", "(9'6\")"),
+        ("Digging depth", "7170 mm", "6970 mm"),
+        ("Reach", "10 600 mm", "10 410 mm"),
+    ]
+    for number, cells in enumerate(rows):
+        y = 700 - 12 * number - 3 * (number > 1)
+        if number in (0, 2, 3):
+            c.line(60, y + 9, 420, y + 9)
+        for x, cell in zip((60, 240, 340), cells, strict=True):
+            put(c, x, y, cell, bold=number < 2)
+    c.line(60, 660, 420, 660)
+    c.save()
+    asked = template(wanted("Maximum Digging Depth", "length", "digging depth"))
+    for config, depth in (("R3.2", 7.17), ("R2.9", 6.97)):
+        one = from_sheets(asked, [read_sheet(tmp_path / "a.pdf")], config=config).values["Maximum Digging Depth"]
+        assert (one.status, one.value) == ("ok", pytest.approx(depth))
 
 
 @pytest.mark.parametrize(("config", "width", "power"), [("STD", 0.56, 131e3), ("LGP", 0.915, 145e3)])

@@ -82,35 +82,6 @@ def add_twins(found: dict[str, list[Match]], claims: Sequence[Claim]) -> None:
         own += [replace(m, claim=claim) for key, m in first.items() for claim in bare.get(key, ())]
 
 
-_IMPLEMENTS = {"blade", "bucket", "ripper"}
-"""What makers describe in a table of its own, as they do the machine."""
-_COMPANY = 2
-"""So many rows of a table that are a part's, without saying so, make what its other rows leave unsaid that part's."""
-
-
-def doubted_by_company(found: Mapping[str, list[Match]]) -> None:
-    """Doubts what a row calls by its measure alone ("Height") and what is the whole machine's, where other rows of its
-    column are one part's that they do not name either: the table is that part's."""
-    rows: dict[tuple[object, ...], set[tuple[str, int]]] = {}
-    for one in (m for own in found.values() for m in own):
-        said = set(tokens(one.claim.words))
-        for part in tokens(one.wanted.name):
-            if part in _IMPLEMENTS - said:
-                rows.setdefault(_table_of(one), set()).add((part, one.claim.statement.row))
-    for own in found.values():
-        for index, one in enumerate(own):
-            if not {"overall"} & set(tokens(one.wanted.name)) or len(tokens(one.claim.words)) != 1:
-                continue
-            parts = [part for part, _ in rows.get(_table_of(one), ())]
-            if parts and parts.count(part := max(sorted(set(parts)), key=parts.count)) >= _COMPANY:
-                own[index] = replace(one, rest=(*one.rest, part))
-
-
-def _table_of(found: Match) -> tuple[object, ...]:
-    statement = found.claim.statement
-    return (statement.sheet, statement.page, statement.section, statement.column)
-
-
 def without_shared_headings(matches: list[Match]) -> list[Match]:
     """The matches without those of values that have no name but a heading which stands over other ones, too."""
     under: dict[tuple[object, ...], set[tuple[float, ...]]] = {}

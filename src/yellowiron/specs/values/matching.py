@@ -30,7 +30,6 @@ from yellowiron.specs.values.claims import Claim, names_model
 from yellowiron.specs.values.contention import (
     Match,
     add_twins,
-    doubted_by_company,
     ends_told_apart,
     is_gear,
     is_possible,
@@ -94,7 +93,6 @@ def match(claims: Sequence[Claim], wanted: Sequence[Wanted]) -> dict[str, list[M
             found[one.wanted.name].append(replace(one, score=one.score - _UNSAID) if unsaid else one)
     add_twins(found, claims)
     without_lone_gears(found)
-    doubted_by_company(found)
     return ends_told_apart({name: without_shared_headings(own) for name, own in found.items()}, wanted)
 
 

@@ -110,6 +110,11 @@ def _read_row(
         heading = column.heading(max(line.bottom for line in row), pieces[0].text)
         state.open_section(heading, tuple(pieces[1:]))
         return
+    ordered = sorted(row, key=lambda line: line.top)
+    if len(row) == 2 and _are_names(*ordered):
+        for line in ordered:
+            state.add_heads(line.pieces)
+        return
     if "value" in kinds and _are_heads(pieces, kinds, state):
         state.heads.append(tuple(pieces))
         return
@@ -135,6 +140,17 @@ def _are_designations(pieces: Sequence[TextPiece]) -> bool:
     """Whether a row names columns by numbers with letters: "Blade   8 SU   8 U   8 SU LGP"; "24 V" is no name."""
     names = [p.bare for p in pieces[1:] if _DESIGNATION.fullmatch(p.bare)]
     return 1 < len(names) == len(pieces) - 1 and any(re.search(r"[A-Z]{2}", name) for name in names)
+
+
+def _are_names(names: TextLine, sizes: TextLine) -> bool:
+    """Whether two bold lines name columns, each by its name and its size under it: "Stick   R3.9   R3.2" over
+    "(12'10\")   (10'6\")"."""
+    over = names.pieces[-len(sizes.pieces) :]
+    bold = all(p.bold for p in (*names.pieces, *sizes.pieces))
+    return bold and len(names.pieces) == len(over) + 1 > 2 and all(
+        n.x0 < s.x1 and s.x0 < n.x1 and kind_of(n) != "value" == kind_of(s)
+        for n, s in zip(over, sizes.pieces, strict=True)
+    )  # fmt: skip
 
 
 def _captioned(above: Sequence[TextLine], row: Sequence[TextLine], following: Sequence[Sequence[TextLine]]) -> bool:
