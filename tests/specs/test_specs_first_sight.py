@@ -114,3 +114,9 @@ def test_of_names_what_a_quantity_in_a_sentence_is() -> None:
         [wanted("Arm Length", "length", "stick"), wanted("Maximum Digging Depth", "length", "dig depth")], one
     )
     assert values["Arm Length"][0] != "ok"
+
+
+def test_what_a_heading_lacks_its_rows_do_not() -> None:
+    asked = [wanted("Counterweight", "mass")]
+    values = found(asked, row(1, "Counterweight", "4400 kg", context=("Base machine (without front linkage)",)))
+    assert values["Counterweight"] == ("ok", pytest.approx(4400.0))

@@ -227,6 +227,7 @@ _GEARED = {"gear", "shift", "speed", "transmission"}
 @functools.lru_cache(maxsize=4096)
 def _cut(words: str, head: str, column: tuple[str, ...], context: tuple[str, ...], section: str) -> _Said:
     heads = [h for h in column if not _names_configuration(h)]
+    context = tuple(_ASIDE.sub(" ", c) for c in context)
     label = words
     if context and names_model(words):  # "Shipping weight", and under it a row for each model
         label = ""
@@ -246,6 +247,8 @@ def _cut(words: str, head: str, column: tuple[str, ...], context: tuple[str, ...
     )
 
 
+_ASIDE = re.compile(r"\((?:without|w/o|ohne|sans|sin|senza|sem)\b[^()]*\)", re.IGNORECASE)
+"""What a heading lacks, its rows do not: "Base machine (without front linkage) | Counterweight"."""
 _LEADS = re.compile(r"[:：]\s*$")
 _STANDARD = re.compile(r"\b(?:with|mit|avec|con)\s+(?:\w+ )?(?:std\b|standard|basic|est[aá]ndar|serien)[^,;:/]*$", re.I)
 
