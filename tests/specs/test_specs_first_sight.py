@@ -93,7 +93,7 @@ def test_what_a_chart_of_loads_holds_for_is_for_review() -> None:
 
 def test_what_a_sentence_over_it_praises_is_for_review() -> None:
     asked = [wanted("Lift Speed", "speed")]
-    praised = "Best in class lift speeds ensure fast and efficient cycle times"
+    praised = "With its lift speed the largest of our trucks saves time at every ramp"
     for section, status in ((praised, "review"), ("A truck of the new series with all its data here", "ok")):
         assert found(asked, row(1, "Lift speed", "470 mm/s", section=section))["Lift Speed"][0] == status
 
@@ -105,11 +105,11 @@ def test_a_label_that_begins_with_its_number_is_no_value_of_a_name_that_has_one(
 
 def test_of_names_what_a_quantity_in_a_sentence_is() -> None:
     words, x = [], 10.0
-    for text in ["The", "boom", "combined", "with", "the", "stick", "provides", "a", "8.9", "m", "of", "dig", "depth."]:
+    for text in ["With", "its", "long", "stick", "it", "reaches", "8.9", "m", "of", "dig", "depth."]:
         words.append(Word(text, x, x + 4.0 * len(text), 100.0, 8.0))
         x += 4.0 * len(text) + 3.0
     (one,) = read_paragraph(1, lines_of(words), 0, "")
-    assert one.text == "8.9 m" and one.label.endswith("provides a dig depth")
+    assert one.text == "8.9 m" and one.label.endswith("dig depth")
     values = found(
         [wanted("Arm Length", "length", "stick"), wanted("Maximum Digging Depth", "length", "dig depth")], one
     )
