@@ -122,8 +122,6 @@ _CHART = re.compile(r"\blift(?:ing)? capacit(?:y|ies)\b", re.IGNORECASE)
 """A heading over a chart of loads."""
 _LOADED = {"lift", "load", "radius", "capacity"}
 """What a value is called that such a chart may give itself."""
-
-
 _SENTENCE = 8
 """So many words over a value, its own name among them, are a sentence that praises one machine of a series."""
 

@@ -313,10 +313,8 @@ def _match(asked_for: _Asked, claim: Claim, said: _Said) -> Match | None:
     worded = frozenset[str]().union(*(words for words in said.naming if not any(map(_is_number, words))))
     if ((label | context | section | worded) - explained) & REVERSING:  # the head "VS 135" is a model
         return None
-    leading = next((words for text, words in zip(claim.statement.context, said.contexts, strict=False)
-                    if _LEADS.search(text)), frozenset[str]()) & _MEASURES  # fmt: skip
-    if leading and not (label | head) & _MEASURES and asked_for.name & _MEASURES and not leading & asked_for.name:
-        return None  # "add to basic tractor length: | Ripper raised" is no height
+    if not (label | head) & _MEASURES and _leads_elsewhere(asked_for, claim, said):
+        return None
     asked = {t for p in (wanted.name, best) for t in tokens(p)}
     if any(_contradicts(group - explained, asked - group) for group in (label, head, context, section)):
         return None
@@ -429,6 +427,15 @@ def _anchored(words: Set[str], label: Set[str], head: Set[str], above: Set[str])
     if words & head:
         return len(words & head) >= 1
     return not label and all(map(_is_number, head)) and words <= above  # numbers over a column are models
+
+
+def _leads_elsewhere(asked_for: _Asked, claim: Claim, said: _Said) -> bool:
+    """Whether a sub-heading that leads on to its rows says another measure than the value's name: under "add to basic
+    tractor length:" no "Ripper (raised)" is a height."""
+    asked = asked_for.name & _MEASURES
+    above = zip(claim.statement.context, said.contexts, strict=False)  # the last may have gone to the label
+    leading = next((words & _MEASURES for text, words in above if _LEADS.search(text)), frozenset[str]())
+    return bool(asked and leading) and not leading & asked
 
 
 def _contradicts(words: Set[str], asked: Set[str]) -> bool:
