@@ -269,6 +269,20 @@ def test_physics_materials(stage: Usd.Stage) -> None:
     assert bound.GetPath() == "/test_machine/materials/rubber"
 
 
+def test_contacts_in_physx_give_way_critically_damped_but_those_of_tyres(stage: Usd.Stage) -> None:
+    """Per mass, as Newton's and MuJoCo's do."""
+    for prim in stage.GetPrimAtPath("/test_machine/materials").GetChildren():
+        per_mass, stiffness, damping = (
+            prim.GetAttribute(f"physxMaterial:compliantContact{name}").Get()
+            for name in ("AccelerationSpring", "Stiffness", "Damping")
+        )
+        if prim.GetName() == "rubber":
+            assert (per_mass, stiffness, damping) == (None, None, None)
+        else:
+            assert per_mass is True, prim.GetName()
+            assert damping == pytest.approx(2.0 * stiffness**0.5)
+
+
 def test_counts(written: Path) -> None:
     assert count_joints(written / "test_machine.usda") == {
         "bodies": 10,
