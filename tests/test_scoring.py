@@ -156,6 +156,32 @@ def test_a_joint_over_a_third_body_on_its_axis_counts_and_another_pair_does_not(
     assert half.score(joints=[joint]).joints_right == 0
 
 
+def test_a_wheel_may_be_steered_and_roll_over_a_body_that_is_not_drawn(known: Known) -> None:
+    hinge = next(j for j in known.mechanism.joints if {j.body0, j.body1} == {"boom", "bucket"})
+    rolls = next(j for j in known.joints if set(j.bodies) == {"boom", "bucket"})
+    steered = replace(rolls, name="steered", axis=(0.0, 0.0, 1.0))
+    over = {"not drawn": 2, "front_frame": 0}
+    for between, right in over.items():
+        chain = (
+            replace(hinge, name="a", body0="boom", body1=between, axis=(0.0, 0.0, 1.0)),
+            replace(hinge, name="b", body0=between, body1="bucket"),
+        )
+        found = replace(known, mechanism=replace(known.mechanism, joints=chain))
+        assert found.score(joints=[rolls, steered]).joints_right == right
+        # Of a truth without the other joint it has one too many.
+        assert found.score(joints=[rolls]).joints_right == 0
+
+
+def test_a_slide_has_a_place_only_where_it_is_a_hydraulic_cylinders(known: Known) -> None:
+    hinge = next(j for j in known.mechanism.joints if {j.body0, j.body1} == {"boom", "bucket"})
+    away = tuple((np.array(hinge.anchor) + known.height).tolist())
+    for bodies, right in ((("front_frame", "boom"), 1), (("boom_cylinder_barrel_l", "boom_piston_rod_l"), 0)):
+        slide = replace(hinge, name="a", type="prismatic", body0=bodies[0], body1=bodies[1], anchor=away)
+        found = replace(known, mechanism=replace(known.mechanism, joints=(slide,)))
+        asked = TrueJoint("a", "prismatic", bodies, hinge.anchor, hinge.axis)
+        assert found.score(joints=[asked]).joints_right == right
+
+
 def test_twins_are_one_where_they_were_found_as_one_and_not_where_their_feet_may_be_of_the_frame() -> None:
     left, right = (
         TrueJoint(f"foot_{s}", "revolute", ("main_frame", f"barrel_{s}"), (0.0, y, 0.0), (0.0, 1.0, 0.0))

@@ -25,7 +25,7 @@ from yellowiron.alignment.fusion.bonds import ENOUGH, Bond, _kin, _together, _we
 from yellowiron.alignment.fusion.judge import Field, field_of, score_of
 from yellowiron.alignment.fusion.pieces import Piece, largeness, leading
 from yellowiron.alignment.fusion.played import beside_lost_arms
-from yellowiron.alignment.fusion.reading import CONTRARY, _one_name
+from yellowiron.alignment.fusion.reading import CONTRARY, _Best, _by_any_labels, _one_name
 from yellowiron.alignment.fusion.stance import Stance, stance_of
 from yellowiron.alignment.fusion.votes import LENT, borrowed
 from yellowiron.alignment.fusion.weights import weights
@@ -74,6 +74,29 @@ def test_what_is_large_is_not_left_out_lightly(excavator: Template) -> None:
         assert (*field.bodies, None)[labels[1]] == body
     areas = [SimpleNamespace(area=a) for a in (4.0, 1.0)]
     assert largeness(cast("list[Piece]", areas)).tolist() == [1.0, 0.5]
+
+
+def test_a_variant_takes_over_anothers_labels_where_it_is_better_by_them(
+    excavator: Template, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    """Annealing does not know what a variant loses by a body that nothing plays: a fork carriage was left to the
+    chassis, and the mast that lifts it on another section, of which nothing is drawn, won by it."""
+    votes = [{"boom": {"name": 1.0}}, {"boom": {"name": 0.1}, "arm": {}}]
+    field = field_of(votes, [], excavator, weights())
+    boom, arm = (field.bodies.index(b) for b in ("boom", "arm"))
+    lost = {(boom, boom): -30.0, (boom, arm): 0.0}
+    monkeypatch.setattr(reading, "_lacking", lambda _, __, labels, ___: lost[tuple(labels.tolist())])
+
+    def judged(*labels: int) -> _Best:
+        score = score_of(field, np.array(labels)) + lost[labels]
+        return _Best(score, {}, excavator, field, np.array(labels), [], (0, 1))
+
+    evidence = cast("Any", SimpleNamespace(leading=(0, 1)))
+    own, other = judged(boom, boom), judged(boom, arm)
+    assert score_of(field, own.labels) > score_of(field, other.labels)
+    assert _by_any_labels(own, [own, other], evidence).labels.tolist() == [boom, arm]
+    assert _by_any_labels(own, [own, other], evidence).score == other.score
+    assert _by_any_labels(other, [own, other], evidence) is other
 
 
 def test_mirror_images_are_one_body_or_twins() -> None:

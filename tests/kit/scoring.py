@@ -10,14 +10,16 @@ for a part of it and not listed, up to the machine's own area.
 
 A role (a body, a pin) is right if most of its area is; a pin must play its own role for that. A joint of the truth is
 right if one is found between its bodies, or two over a third body, on its axis: within 1 % of the machine's height
-across the axis and 2°, or what its label allows. Slides as pivots; where along the axis does not matter.
+across the axis and 2°, or what its label allows; where along the axis does not matter. So are slides that are hydraulic
+cylinders'; another slide is the same wherever it is, and only has a direction. What the truth has as two joints between
+two bodies (a wheel that is steered and rolls) may be two over a body of which nothing is drawn.
 """
 
 from __future__ import annotations
 
 import math
 import re
-from collections.abc import Iterable, Mapping
+from collections.abc import Collection, Iterable, Mapping
 from dataclasses import asdict, dataclass, replace
 
 import numpy as np
@@ -150,7 +152,8 @@ def score(
         total += dropped
         flagged += dropped
     silent += min(taken_in, total)
-    lost, count = _lost(joints, mechanism, alignment, factor, height, played)
+    bars = {r.name for r in template.roles if r.kind in ("barrel", "rod")}
+    lost, count = _lost(joints, mechanism, alignment, factor, height, played, bars)
     bad_roles = [g for g, (no, yes) in votes.items() if yes <= no]
     return Score(
         total, right, silent, flagged, counted, parts_right, parts_silent,
@@ -253,11 +256,21 @@ def _lost(
     factor: float,
     height: float,
     played: Mapping[str, set[str]],
+    bars: Collection[str] = (),
 ) -> tuple[list[str], int]:
-    """The joints of the truth that were not found, with why; and how many there are."""
+    """The joints of the truth that were not found, with why; and how many there are. `bars`: the bodies that are halves
+    of hydraulic cylinders."""
     found = [] if mechanism is None else _lines(mechanism, alignment.frame, factor)
+    drawn = {p.body for p in alignment.parts}
     lost, count = [], 0
     joints = list(joints)
+
+    def is_on(joint: TrueJoint, line: _Line) -> bool:
+        degrees, across = _apart(joint, line)
+        placed = line.type != "prismatic" or any(b in bars for b in joint.bodies)
+        near = across <= max(ACROSS * height, joint.tolerance or 0.0)
+        return degrees <= max(DEGREES, joint.degrees) and (near or not placed)
+
     for joint in (_between_twins(j, joints, played) for j in joints):
         count += 1
         ends = [
@@ -272,9 +285,14 @@ def _lost(
             degrees, across = _apart(joint, line)
             if any(line is f for f in between):
                 best = min(best, (across, degrees))
-            if degrees <= max(DEGREES, joint.degrees) and across <= max(ACROSS * height, joint.tolerance or 0.0):
+            if is_on(joint, line):
                 on_axis.append(line)
         if any(_joins(f, ends) for f in on_axis) or (not slide and _over_third(on_axis, ends)):
+            continue
+        # The other joints of the truth between the same bodies.
+        beside = [j for j in joints if {*j.bodies} == {*joint.bodies} and j.name != joint.name]
+        others = [f for f in found if any(is_on(j, f) for j in beside) and f.type != "prismatic"]
+        if not slide and _over_undrawn(on_axis, others, ends, drawn):
             continue
         where = f"{best[0] / height:.1%} of the height and {best[1]:.1f} deg off" if between else "no such joint"
         lost.append(f"{joint.name}: {where}")
@@ -308,6 +326,19 @@ def _over_third(lines: list[_Line], ends: list[frozenset[str]]) -> bool:
     """Whether two joints on one axis join the bodies over a third."""
     beyond = [{b for line in lines if line.bodies & end for b in line.bodies - end} for end in ends]
     return bool((beyond[0] & beyond[1]) - ends[0] - ends[1])
+
+
+def _over_undrawn(
+    lines: list[_Line], others: list[_Line], ends: list[frozenset[str]], drawn: Collection[str | None]
+) -> bool:
+    """Whether a joint on the one axis and one on another join the bodies over one of which nothing is drawn."""
+    pairs = ((one, two, one.bodies & two.bodies) for one in lines for two in others)
+    return any(
+        len(middle) == 1
+        and not middle & {*drawn}
+        and _joins(_Line("", one.bodies ^ two.bodies, one.point, one.axis), ends)
+        for one, two, middle in pairs
+    )
 
 
 def _lines(mechanism: Mechanism, frame: Array, factor: float) -> list[_Line]:

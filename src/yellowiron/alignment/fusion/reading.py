@@ -55,6 +55,8 @@ BESIDE = 0.05
 """What its name alone gives to a body is no farther from it, in machine sizes."""
 AS_GOOD = 12.0
 """A variant by which a machine is judged less well by no more than this could as well be the one."""
+BY_OTHERS = 1.0
+"""… and takes over another one's labels where these are better by more than this."""
 CLEAR_LEAD = 12.0
 """A small piece whose body is better than any other by less than this goes with what it touches."""
 
@@ -141,6 +143,8 @@ def fused(
     likely = [tried(b.choices, b.template, evidence) for b in glanced[:LIKELY]]
     bare = [(b, as_drawn(b.template, b.played)) for b in likely]
     likely += [tried(b.choices, drawn, evidence) for b, drawn in bare if drawn is not b.template]
+    likely = [_by_any_labels(b, likely, evidence) for b in likely]
+    found_so_far |= {(evidence, id(b.template)): b for b in likely}
     best = max(likely, key=lambda b: b.score)
     best = tried(best.choices, best.template, evidence, chains=MANY)
     told, way = max(((_of_contacts(answer, way), way) for way in ways), key=lambda one: one[0].score)
@@ -225,6 +229,18 @@ def _labels_in(field: Field, other: _Best, leading: Sequence[int]) -> np.ndarray
     told = [place.get(body, len(place)) for body in other.field.bodies]
     labels = dict(zip(other.leading, np.array([*told, len(place)])[other.labels].tolist(), strict=True))
     return np.array([labels.get(k, len(place)) for k in leading], dtype=np.int64)
+
+
+def _by_any_labels(best: _Best, others: Sequence[_Best], evidence: Evidence) -> _Best:
+    """A variant with its own labels, or with those of another one where it scores better by them: annealing does not
+    know what a body costs that nothing plays, and may leave one out that another variant has."""
+    told = [_labels_in(best.field, other, evidence.leading) for other in others if other is not best]
+    scored = [
+        (score_of(best.field, labels) + _lacking(evidence, best.field.bodies, labels, best.template), n)
+        for n, labels in enumerate(told)
+    ]
+    score, n = max(scored, key=lambda one: (one[0], -one[1]), default=(best.score, -1))
+    return replace(best, score=score, labels=told[n]) if score > best.score + BY_OTHERS else best
 
 
 def _drawn(evidence: Evidence, bodies: Sequence[str], labels: np.ndarray, template: Template) -> set[str]:

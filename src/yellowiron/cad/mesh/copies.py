@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Sequence
+from collections.abc import Iterator, Sequence
 
 import numpy as np
 
@@ -21,7 +21,7 @@ def originals(meshes: Sequence[Mesh]) -> list[tuple[int, Floats | None]]:
     their coordinates; and equal colours and texture coordinates. A mesh with coordinates that are not finite is a copy
     of none.
     """
-    known: dict[int, list[tuple[int, Floats, Floats, float]]] = {}
+    known: dict[int, _Alike] = {}
     result: list[tuple[int, Floats | None]] = []
     for index, mesh in enumerate(meshes):
         corners = mesh.points[mesh.triangles].reshape(-1, 3)
@@ -32,12 +32,8 @@ def originals(meshes: Sequence[Mesh]) -> list[tuple[int, Floats | None]]:
         centred = corners - middle
         measures = _measures(centred)
         rounding = max(WELD * measures[1], 4.0 * float(np.finfo(np.float32).eps) * float(np.abs(corners).max()))
-        group = known.setdefault(len(corners), [])
-        for first, other, sizes, slack in group:
-            # What rounding does to a small part far from the origin may be more than a share of it.
-            allowed = _ALIKE * measures + 2.0 * (rounding + slack) * np.array([measures[2], 1.0, len(corners)])
-            if (np.abs(sizes - measures) > allowed).any():
-                continue
+        group = known.setdefault(len(corners), _Alike())
+        for first, other, slack in group.near(measures, rounding, len(corners)):
             if not _same_looks(meshes[first], mesh):
                 continue
             turn = _rotation(other, centred)
@@ -49,8 +45,33 @@ def originals(meshes: Sequence[Mesh]) -> list[tuple[int, Floats | None]]:
             result[-1] = (first, transform)
             break
         else:
-            group.append((index, centred, measures, rounding))
+            group.add(index, centred, measures, rounding)
     return result
+
+
+class _Alike:
+    """Meshes of as many corners, none a copy of another: the number and the centred corners of each, and, a row each of
+    arrays that grow, its measures and the rounding of its coordinates."""
+
+    def __init__(self) -> None:
+        self._known: list[tuple[int, Floats]] = []
+        self._rows = np.zeros((4, 4))
+
+    def add(self, index: int, centred: Floats, measures: Floats, rounding: float) -> None:
+        """Takes in a mesh."""
+        if len(self._known) == len(self._rows):
+            self._rows = np.concatenate([self._rows, np.zeros_like(self._rows)])
+        self._rows[len(self._known)] = (*measures, rounding)
+        self._known.append((index, centred))
+
+    def near(self, measures: Floats, rounding: float, corners: int) -> Iterator[tuple[int, Floats, float]]:
+        """Number, centred corners and rounding of those that measure the same, in order."""
+        sizes, slack = self._rows[: len(self._known), :3], self._rows[: len(self._known), 3]
+        # What rounding does to a small part far from the origin may be more than a share of it.
+        by_rounding = 2.0 * (rounding + slack)[:, None] * np.array([measures[2], 1.0, corners])
+        other = (np.abs(sizes - measures) > _ALIKE * measures + by_rounding).any(axis=1)
+        for n in np.flatnonzero(~other).tolist():
+            yield (*self._known[n], float(slack[n]))
 
 
 def _measures(centred: Floats) -> Floats:
