@@ -13,8 +13,10 @@ from yellowiron.model.specification import Specification
 from yellowiron.specs.extraction import from_sheets
 from yellowiron.specs.extraction import read as read_pdf
 from yellowiron.specs.language.quantities import Quantity
+from yellowiron.specs.layout.page_cells import Cell
 from yellowiron.specs.layout.statement import Statement
 from yellowiron.specs.llm.doubts import Doubted, is_answered
+from yellowiron.specs.llm.pointing import PageText, place_of
 from yellowiron.specs.values.claims import Claim
 from yellowiron.specs.values.contention import Match
 from yellowiron.specs.values.cross_check import Nearby
@@ -97,6 +99,47 @@ def test_words_behind_a_number_under_a_label_are_its_own(text: str, answered: bo
     found = Match(asked, Claim(statement, "Shipping length", "", quantity), 1.0, "shipping length")
     value = Specification("Shipping Length", 2.5, "m", "review", reason="the layout was not understood there")
     assert is_answered(Doubted(asked, (asked,), (), Nearby(found, "above")), value) is answered
+
+
+@pytest.mark.parametrize(
+    ("section", "rest", "answered"),
+    [
+        ("", (), True),
+        ("", ("gear",), True),  # of a list of three and more, or the rules bring none
+        ("", ("reverse",), False),
+        ("Best of its class: travel speeds that keep every cycle short", (), False),
+    ],
+)
+def test_what_stands_over_a_speed_and_what_its_row_is_called_by(
+    section: str, rest: tuple[str, ...], answered: bool
+) -> None:
+    """Praise over a value is of one machine of a series, whatever a second reader says."""
+    asked = template(wanted("Travel Speed", "speed", "travel speed")).wanted[0]
+    statement = Statement(1, 1, "Travel speed", "47 km/h", (36.0, 589.0, 80.0, 600.0), "47 km/h", section=section)
+    claim = Claim(statement, "Travel speed", "", Quantity(47.0, "km/h", 0.5, "47 km/h", 0, 7))
+    found = Match(asked, claim, 1.0, "travel speed", rest)
+    value = Specification("Travel Speed", 47 / 3.6, "m/s", "review", reason="doubted")
+    assert is_answered(Doubted(asked, (asked,), (found,), None), value) is answered
+
+
+@pytest.mark.parametrize(("head_at", "section"), [(210.0, ""), (500.0, "Bucket options")])
+def test_the_label_of_a_row_of_heads_is_no_heading(head_at: float, section: str) -> None:
+    """Bold words with a head over the row's values beside them; far to the right stands another column's heading."""
+
+    def cell(line: int, x0: float, text: str, kind: str, *, heading: bool = False) -> Cell:
+        return Cell(1, line, text, text, (x0, 20.0 * line, x0 + 60.0, 20.0 * line + 9.0), 10.0, kind, heading)
+
+    cells = (
+        cell(1, 36.0, "Bucket options", "text", heading=True),
+        cell(1, head_at, "GP 1.2", "text", heading=True),
+        cell(2, 36.0, "Digging depth", "text"),
+        cell(2, 200.0, "6.6 m", "value"),
+    )
+    said = {
+        "value_cell": 4, "value": "6.6", "label_cells": [3], "unit_cell": 0, "column_cell": 0, "footnote_cell": 0,
+        "words": "Digging depth",
+    }  # fmt: skip
+    assert place_of(said, PageText(0, 1, cells), -1).statement.section == section
 
 
 def test_played_models_do_not_answer_for_one_another(

@@ -50,7 +50,7 @@ class Shown:
     x1: float
     text: str
 
-    @property
+    @functools.cached_property
     def is_text(self) -> bool:
         words = re.sub(r"^\W*\d[\d.,]*(?:st|nd|rd|th)?\s+(?=[^\W\d_]{4})", "", self.text)  # "3.0 Forward", "4th gear"
         return not re.match(r"[^\w]*\d", words) and bool(re.search(r"[^\W\d_]{3,}", words))
@@ -133,21 +133,33 @@ def _shared(cells: tuple[Shown, ...], asked: Asked) -> tuple[Pair, ...]:
     return tuple(replace(p, share=len(asked.words & words) / max(len(words), 1)) for p, words in said)
 
 
-@functools.lru_cache(maxsize=64)
-def _pairs(cells: tuple[Shown, ...], dimension: str) -> tuple[tuple[Pair, frozenset[str]], ...]:
+@functools.lru_cache(maxsize=16)
+def _labelled(cells: tuple[Shown, ...]) -> tuple[tuple[Shown, tuple[Shown, ...]], ...]:
+    """The cells, those with a number each with the words before, beside, above and below it."""
     page = Question(0, cells, (), "", "")
-    found: dict[tuple[int, str, float, int], tuple[Pair, frozenset[str]]] = {}
+    found: list[tuple[Shown, tuple[Shown, ...]]] = []
     for cell in cells:
+        labels: list[Shown] = []
+        if any(c.isdigit() for c in cell.text):
+            above = page.above(cell, 90)
+            near = [c for c in above if cell.y - c.y < 25][:1]
+            labels = [c for c in (page.left_of(cell), *near) if c is not None and c.is_text]
+            labels += [c for c in page.row_before(cell) if c not in labels]
+            labels += [c for c in above if c.is_text and c not in labels][:1]
+            labels += [c for c in cells if 2 < c.y - cell.y < 20 and c.x0 < cell.x1 and cell.x0 < c.x1 and c.is_text]
+        found.append((cell, tuple(c for c in labels if not is_unit(c.text))))
+    return tuple(found)
+
+
+@functools.lru_cache(maxsize=512)
+def _pairs(cells: tuple[Shown, ...], dimension: str) -> tuple[tuple[Pair, frozenset[str]], ...]:
+    found: dict[tuple[int, str, float, int], tuple[Pair, frozenset[str]]] = {}
+    for cell, labels in _labelled(cells):
         if dimension == "count" and (word := re.search(rf"\b({'|'.join(_COUNTS)})\b", cell.text, re.IGNORECASE)):
             pair = Pair(cell, word[0], float(_COUNTS[word[0].lower()]), cell, 0.0)
             found[cell.number, word[0], pair.value, cell.number] = pair, frozenset(tokens(cell.text))
         if not any(c.isdigit() for c in cell.text):
             continue
-        labels = [c for c in (page.left_of(cell), *page.above(cell, 25)[:1]) if c is not None and c.is_text]
-        labels += [c for c in page.row_before(cell) if c not in labels]
-        labels += [c for c in page.above(cell, 90) if c.is_text and c not in labels][:1]
-        labels += [c for c in cells if 2 < c.y - cell.y < 20 and c.x0 < cell.x1 and cell.x0 < c.x1 and c.is_text]
-        labels = [c for c in labels if not is_unit(c.text)]
         for unit in _UNITS.get(dimension, ("",)):
             for reading in read(cell.text, unit=unit):
                 for quantity in (*reading.numbers, *reading.partner):
@@ -205,9 +217,9 @@ def truthful(truths: Truths, pages: Mapping[str, int] | None = None) -> Model:
     def answer(question: Question) -> list[Entry]:
         found = []
         for asked in question.wanted:
-            if pages and pages.get(asked.name, question.page) != question.page:
+            if asked.name not in truths or (pages and pages.get(asked.name, question.page) != question.page):
                 continue
-            right = [p for p in pairs(question, asked) if asked.name in truths and _is(truths[asked.name], p.value)]
+            right = [p for p in pairs(question, asked) if _is(truths[asked.name], p.value)]
             if right:
                 best = max(right, key=lambda p: (_configured(question, p), p.share))
                 found.append(entry(question, asked, best))

@@ -14,11 +14,12 @@ from dataclasses import dataclass, replace
 from yellowiron.model.specification import Candidate, Specification
 from yellowiron.model.template import Wanted
 from yellowiron.specs.language.numbers import read
+from yellowiron.specs.language.quantities import Quantity, same
 from yellowiron.specs.language.vocabulary import tokens
 from yellowiron.specs.llm.doubts import Doubted, alike, is_answered, reads_same
 from yellowiron.specs.llm.page_reader import Pointed
 from yellowiron.specs.llm.pointing import Spot
-from yellowiron.specs.values.claims import configured_by
+from yellowiron.specs.values.claims import configured_by, split_phrases
 from yellowiron.specs.values.contention import Match
 from yellowiron.specs.values.cross_check import Nearby
 from yellowiron.specs.values.decision import Sheets, decide, evidence_of, missing, printed, settled
@@ -106,15 +107,18 @@ def _out_of_conflict(asked: Asked, by_rules: Specification, pointed: Sequence[Po
     for one in pointed:
         value = settled(asked.wanted, one.match.claim)[0].si_value
         own = [c for c in by_rules.candidates if alike(c.value, value)]
-        others = [c for c in by_rules.candidates if not alike(c.value, value)]
+        rounded = [_value_of(m) for m in asked.matches if _rounds(m.claim.quantity, one.match.claim.quantity)]
+        others = [c for c in by_rules.candidates if not any(alike(c.value, v) for v in (value, *rounded))]
         if not own:
             continue
+        if one.sure and not others:
+            return replace(_brought(asked, [one]), status="ok", confidence=SURE, reason=_both(asked, one), hint="")
         if one.place.footnote:
             stated = Stated(one.place.footnote, one.place.statement.page)
             chosen = decide(asked.wanted, asked.matches, replace(asked.sheets, stated=(stated,)), asked.config)
             if chosen.status == "ok" and chosen.value is not None and alike(chosen.value, value):
                 return replace(chosen, reason=f"{_both(asked, one)}; {chosen.reason}")
-        if one.sure and _is_told_apart(asked.wanted, one, others):
+        if one.sure and _is_told_apart(asked, one, others):
             chosen = _brought(asked, [one])
             said = _both(asked, one)
             return replace(chosen, status="ok", confidence=SURE, reason=said, hint="", candidates=(*own, *others))
@@ -125,16 +129,30 @@ def _value(asked: Asked, one: Pointed) -> float:
     return settled(asked.wanted, one.match.claim)[0].si_value
 
 
-def _is_told_apart(wanted: Wanted, one: Pointed, others: Sequence[Candidate]) -> bool:
-    """Whether a candidate's row says a word of the wanted value's name that no other's says; or all stand on one row,
-    and the configuration names its column; or it is the end of a range that holds all others: "9.35 m to 30.5 m", and
-    a chart for each length between."""
-    statement = one.place.statement
+def _value_of(found: Match) -> float:
+    return settled(found.wanted, found.claim)[0].si_value
+
+
+def _rounds(other: Quantity, fine: Quantity) -> bool:
+    """Whether a number is another, more finely printed one, rounded."""
+    return other.si_half > fine.si_half and same(other, fine)
+
+
+def _is_told_apart(asked: Asked, one: Pointed, others: Sequence[Candidate]) -> bool:
+    """Whether a candidate's row says a word of the wanted value's name that no other's says, or names the configuration
+    that is meant ("Operating weight – SU") as no other's; or all stand on one row, and the configuration names its
+    column; or it is the end of a range that holds all others: "9.35 m to 30.5 m", and a chart for each length
+    between."""
+    wanted, statement = asked.wanted, one.place.statement
     ends = [q.si_value for r in read(statement.text, unit=statement.unit) for q in r.numbers]
     value = settled(wanted, one.match.claim)[0].si_value
     if len(ends) == 2 and value in ends and all(min(ends) <= c.value <= max(ends) for c in others):
         return True
     said = set(tokens(f"{statement.label} {' '.join(statement.column)}"))
+    explained = set(tokens(one.match.phrase))
+    beyond = [{t for t in tokens(c.evidence.quote) if t.isalpha()} - explained for c in others]
+    if said - explained in [set(words) for words in map(tokens, split_phrases(asked.config)) if words]:
+        return said - explained not in beyond
     if any(not set(tokens(wanted.name)) & said - set(tokens(c.evidence.quote)) for c in others):
         box = statement.box
         row = [c.evidence.box for c in others if c.evidence.page == statement.page]

@@ -18,7 +18,7 @@ from yellowiron.specs.language.vocabulary import HARMLESS, KNOWN, NEUTRAL, TELLI
 from yellowiron.specs.layout.nearest import COUNTS
 from yellowiron.specs.llm.pointing import Spot
 from yellowiron.specs.values.claims import COUNTED_TOGETHER, PRINTED_FOR_A_FORCE
-from yellowiron.specs.values.contention import Match
+from yellowiron.specs.values.contention import Match, of_another_place
 from yellowiron.specs.values.cross_check import Nearby
 from yellowiron.specs.values.decision import OF_OTHERS, is_broken_off, is_measures, settled
 from yellowiron.specs.values.requested import phrases, usual
@@ -28,6 +28,8 @@ _EQUAL = 1e-6
 """Relative difference of two readings of the same printed number."""
 _EXTENT = frozenset({"maximum", "minimum", "overall"})
 """What says how much of a property is meant, and not which property."""
+_GEARS = frozenset({"gear", "shift"})
+"""What a speed of a list of three gears and more is called by; with fewer the rules bring none."""
 _UNDER_WHICH = re.compile(r"(?:\b(?:with|at|for|if|mit|bei|für|avec|pour|con|para)|@|\()\s*$", re.IGNORECASE)
 """What stands before a circumstance: "9.8 m/min with 6-part line"."""
 
@@ -65,7 +67,7 @@ def reads_same(value: Specification, files: Sequence[str], spot: Spot) -> bool:
     number, text = spot.number.casefold(), value.text.casefold()
     number = COUNTS.get(number, number)
     words = re.findall(r"[^\W\d_]+", spot.words.casefold())
-    quote = seen.quote.casefold()
+    quote = f"{seen.quote} {spot.around}".casefold()
     return there and (number in text or text in number) and bool(words) and all(word in quote for word in words)
 
 
@@ -95,10 +97,13 @@ def _is_clear(doubted: Doubted, found: Match) -> bool:
     claim, statement = found.claim, found.claim.statement
     quantity, doubt = settled(doubted.wanted, replace(claim, doubt=""))
     told = claim.doubt.endswith((COUNTED_TOGETHER, PRINTED_FOR_A_FORCE))
-    open_ = is_broken_off(statement.label) or any(map(is_measures, statement.column))
+    open_ = is_broken_off(statement.label) or any(map(is_measures, statement.column)) or of_another_place(found)
     if doubt or (claim.doubt and not told) or claim.ranged or open_ or not usual(doubted.wanted, quantity.si_value):
         return False
-    return says_in_full(found) or (bool(found.rest) and _are_idle(doubted, found, set(found.rest)))
+    rest = set(found.rest) - (_GEARS if doubted.wanted.dimension == "speed" else set())
+    return says_in_full(replace(found, rest=tuple(sorted(rest)))) or (
+        bool(found.rest) and _are_idle(doubted, found, rest)
+    )
 
 
 def _are_idle(doubted: Doubted, found: Match, words: AbstractSet[str]) -> bool:

@@ -22,7 +22,7 @@ from yellowiron.specs.layout.page_cells import Cell
 from yellowiron.specs.llm.doubts import says_in_full
 from yellowiron.specs.llm.pointing import PageText, Place, RefusedError, Spot, place_of, spot_of
 from yellowiron.specs.llm.prompts import PLACES, places_on
-from yellowiron.specs.values.claims import Claim, claims_of, phrases_in
+from yellowiron.specs.values.claims import Claim, claims_of, phrases_in, without_case
 from yellowiron.specs.values.contention import Match
 from yellowiron.specs.values.decision import settled
 from yellowiron.specs.values.matching import match, match_one, weakly
@@ -158,8 +158,16 @@ def _is_there(claim: Claim, pointed: Pointed) -> bool:
 
 
 def _is_sure(claim: Claim, claims: Sequence[Claim], pointed: Pointed, every: Sequence[Wanted], config: str) -> bool:
-    beside = [c for c in claims if c.statement is claim.statement]
-    judged = _judged(pointed.match.wanted, claim, beside, pointed.place, every, config)
+    """Whether the rules' own words for a number say it, too: those of its row, if they read less of it, under its heads
+    but the ones that name the configuration, and what stands over these."""
+    statement, place = claim.statement, pointed.place
+    named = [n for n, head in enumerate(statement.column, 1) if without_case(head) in phrases_in(config)]
+    read, row = set(tokens(statement.label)), set(tokens(place.statement.label))
+    words = place.statement.label if read < row else claim.words
+    own = replace(statement, column=statement.column[named[-1] :] if named else statement.column)
+    beside = {id(c): replace(c, statement=own) for c in claims if c.statement is statement}
+    beside[id(claim)] = worded = replace(claim, words=words, statement=own)
+    judged = _judged(pointed.match.wanted, worded, list(beside.values()), place, every, config)
     return judged is not None and judged.sure
 
 

@@ -10,6 +10,7 @@ from __future__ import annotations
 import re
 from collections.abc import Mapping, Sequence
 from dataclasses import dataclass
+from itertools import takewhile
 
 from yellowiron.specs.language.numbers import read
 from yellowiron.specs.language.quantities import same
@@ -70,13 +71,15 @@ class Place:
 
 @dataclass(frozen=True)
 class Spot:
-    """Where a number that is pointed to stands, whatever its label: sheet, page, the cell's box; `words`: why."""
+    """Where a number that is pointed to stands, whatever its label: sheet, page, the cell's box; `words`: why;
+    `around`: what stands on its row and over it."""
 
     sheet: int
     page: int
     box: Box
     number: str
     words: str
+    around: str = ""
 
 
 def spot_of(said: Mapping[str, object], text: PageText) -> Spot | None:
@@ -89,7 +92,10 @@ def spot_of(said: Mapping[str, object], text: PageText) -> Spot | None:
         return None  # what is pointed to as its unit is none
     if not re.search(rf"(?<![\w.,]){re.escape(number)}(?!\w*\d|[.,]\d)", value.text, re.IGNORECASE):
         return None
-    return Spot(text.sheet, text.page, value.box, number, str(said["words"]))
+    over = [c for c in text.cells if c.heading and c.box[3] <= value.box[1] + 1]  # the last heading is the nearest
+    around = [*over[-1:], *(c for c in text.cells if c.line == value.line), *_above(value, text.cells)]
+    said_there = " ".join(c.text for c in around)
+    return Spot(text.sheet, text.page, value.box, number, str(said["words"]), said_there)
 
 
 def place_of(said: Mapping[str, object], text: PageText, row: int) -> Place:
@@ -103,7 +109,7 @@ def place_of(said: Mapping[str, object], text: PageText, row: int) -> Place:
     label, inside = _label_of(value, begin, labels, text.cells)
     words, unit = unit_in_label(without_key(label))
     over = _over(value, text.cells)
-    section = "" if not labels else _heading(labels[0], text.cells)
+    section = _heading(labels[0], value, text.cells)
     section, of_heading = unit_of_heading(section)
     shown = value.text[begin:] if inside else value.text
     head, of_head = _head(said, text, value, over)
@@ -248,15 +254,21 @@ def _head(said: Mapping[str, object], text: PageText, value: Cell, over: Sequenc
     between = [c for c in over if c.box[1] > cell.box[3] + _CLOSE * cell.size]
     if cell not in over or any(c.heading or c.kind == "text" for c in between):
         raise RefusedError("the column is not the value's own")
-    return unit_in_label(cell.bare)
+    return ("", unit) if (unit := is_unit(cell.bare)) else unit_in_label(cell.bare)
 
 
-def _heading(label: Cell, cells: Sequence[Cell]) -> str:
-    """The nearest heading above a label, in its column of text."""
+def _heading(label: Cell, value: Cell, cells: Sequence[Cell]) -> str:
+    """The nearest heading above a label, in its column of text; what has heads over the row's values beside it is the
+    label of the heads' row ("Stick options | R3.2 | R2.9")."""
+    right = sorted((c for c in cells if c.line == value.line and c.box[0] >= label.box[2] - 1), key=lambda c: c.box[0])
+    own = list(takewhile(lambda c: c is value or not _is_words(c, value), right))
+    end = max(c.box[2] for c in (*own, value))
+    over = [c for c in cells if label.box[2] <= c.box[0] < end and c.kind != "unit"]
     above = [
         c for c in cells
         if c.heading and c.kind == "text" and c.box[3] <= label.box[1] + 1
         and 0.99 * label.size <= c.size < _TITLE * label.size and label.box[0] - _OUT < c.box[0] <= label.box[2]
+        and not any(_level(c.box, head.box) >= 0.5 for head in over)
     ]  # fmt: skip
     return max(above, key=lambda c: c.box[3]).bare if above else ""
 
