@@ -361,11 +361,11 @@ _FEWEST_KEYS = 3
 
 
 def without_key(label: str) -> str:
-    """A label without its drawing's letter key: "B Hinge pin height", "f. Hinge pin height", "F hinge pin height"
-    → "Hinge pin height"."""
+    """A label without its drawing's letter key: "B Hinge pin height", "f. Hinge pin height", "F hinge pin height",
+    "F – Hinge pin height" → "Hinge pin height"."""
     match = re.match(
         r"^\(?(?:[A-Z]{1,2}[′'\"]?|[a-zα-ω](?=\d?[.):]*\s+[A-ZÀ-Ý])\d?|\d{1,2}(?:\.\d{1,2})*)"
-        r"[.):]*\s+(?=[A-ZÀ-Ý(](?:-[^\W\d_])?[^\W\d_]+|(?<=[B-HJ-NP-Z] )[a-z]{4}|[\u3040-\u30ff\u3400-\u9fff])(.+)$",
+        r"[.):]*\s+(?:[-–—]\s+)?(?=[A-ZÀ-Ý(](?:-[^\W\d_])?[^\W\d_]+|(?<=[B-HJ-NP-Z] )[a-z]{4}|[\u3040-\u30ff\u3400-\u9fff])(.+)$",
         label,
     )
     return match.group(1) if match else label
