@@ -49,6 +49,7 @@ from strangers_placed import (  # noqa: E402
     qml,
     summed,
     templates,
+    together,
     urdf,
     xacro,
 )
@@ -164,6 +165,7 @@ TRUCK = (
 """… and those of three others."""
 BUILDERS: dict[str, Callable[[Job], None]] = {
     "aaronlachlan_forklift": one,
+    "abayir_roller": one,
     "aik_forklift": one,
     "andreneder_dump_truck": one,
     "auwo_excavator": turned(urdf),
@@ -211,16 +213,20 @@ BUILDERS: dict[str, Callable[[Job], None]] = {
     "natutech_excavator": in_blender(MERGED),
     "newton_excavator": turned(urdf),
     "niklaslidz_wheel_loader": turned(urdf),
+    "ocs_dump_truck": one,
     "octoman_excavator": one,
     "octoman_forklift": one,
     "okkwok_by_material": one,
     "omersaskan_forklift": one,
+    "packet39_mobile_crane": in_nodes(together),
     "persimenreed_excavator": one,
+    "priyansh_forklift": one,
     "pudong_excavator": turned(urdf),
     "sarisman_excavator": one,
     "shebbyy_excavator": one,
     "simcity_excavator": one,
     "simcity_forklift": one,
+    "simplerig_telehandler": one,
     "simscape_backhoe_arm": in_nodes(instances),
     "simscape_excavator": many,
     "simscape_wheel_loader": many,
@@ -233,6 +239,7 @@ BUILDERS: dict[str, Callable[[Job], None]] = {
     "valkoja_low_poly_full": in_blender(OPENED, "full"),
     "valkoja_low_poly_half": in_blender(OPENED, "half"),
     "wajueji_excavator": one,
+    "wreckingball_crane": one,
     "zszach23_forklift": one,
 }
 

@@ -277,6 +277,12 @@ def templates(job: Job) -> Placed:
         yield name, _mesh(job.file(f"{own['file']}.obj")), place(name)
 
 
+def together(job: Job) -> Placed:
+    """Meshes that lie in one frame already."""
+    for file in job.files:
+        yield file.stem, _mesh(file), np.eye(4)
+
+
 def picked(*names: str) -> Callable[[Job], Placed]:
     """The parts of these names of a file with several machines, as it is read."""
 
