@@ -285,7 +285,7 @@ def together(job: Job) -> Placed:
 
 def pinned(job: Job) -> Placed:
     """A mini excavator's files, whose own description has another machine's lengths, put together on the pins that they
-    draw (each is the pin of the one before it in a bore as wide); boom raised by 30 degrees, arm 30 off upright; Z up."""
+    draw, each pin in a bore as wide; boom raised by 30 degrees, arm 30 off upright; Z up."""
     raised, hanging = (Rotation.from_euler("y", -degrees, degrees=True) for degrees in (30.0, 60.0))
     at = {"base": _place(Rotation.identity(), (0.0, 0.0, 0.0))}
     at["upper-structure"] = at["base"] @ _place(Rotation.identity(), (0.0, 0.0, 0.6045))
