@@ -103,9 +103,11 @@ def test_a_slanted_strip_whose_plane_is_rounded_has_a_rim() -> None:
     """Two parallelograms in one plane, 6e-12 m out of it: their hull has two sides and no face along its longest
     edge."""
     run, across = np.array([0.011, 0.0, 0.005]), np.array([0.0, 0.155, 0.0])
-    corners = np.array([i * run + j * across + k * 0.035 / 0.155 * across for i in (0, 1) for j in (0, 1) for k in (0, 1)])
+    corners = np.array(
+        [i * run + j * across + k * 0.035 / 0.155 * across for i in (0, 1) for j in (0, 1) for k in (0, 1)]
+    )
     corners[::3] += 6e-12 * np.array([-0.43, 0.0, 0.9])
-    made = convex(corners + (0.9145786, -0.2466, 0.937433))
+    made = convex(corners + np.array([0.9145786, -0.2466, 0.937433]))
     assert np.isfinite(made.corners).all()
     assert np.ptp(made.corners, axis=0).max() < 0.2
 

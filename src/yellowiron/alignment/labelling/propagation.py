@@ -59,8 +59,7 @@ class Propagation:
         self.places: dict[int, Place] = {}
         self.loose = solids_without_a_body(self.solids, self.structure, self.solution)
         self.apart: dict[int, float] = {}
-        played = {*self.solution.body_of.values()}
-        self.vacancies = Vacancies(self.solids, self.structure, self.template, played)
+        self.vacancies = Vacancies(self.solids, self.answer)
         self.cluster_of = {b: c for c, b in self.solution.body_of.items()}
         self.assemblies: dict[tuple[str, ...], list[int]] = {}
         for solid in self.solids:
@@ -91,6 +90,7 @@ class Propagation:
                 sure = 0.98 * (1.0 - math.exp(-max(what.lead, 0.0) / SURE_LEAD))
                 sure = sure if what.grounded else min(sure, DOUBTFUL)
                 self.places[i] = Place(what.body, what.body, sure, what.words, what.second, how="judged")
+            self.places |= self.vacancies.root()
             return
         second = next_bodies(self.structure, self.template, self.solution)
         for c, body in sorted(self.solution.body_of.items()):
@@ -232,7 +232,7 @@ class Propagation:
     def _give(self, i: int, place: Place) -> None:
         """What could move on its own, or be a body that is missing, goes with a neighbour for want of a better place,
         for a person to look at."""
-        if (other := self.vacancies.of(i, place.body)) is not None:
+        if (other := self.vacancies.beside(place.body, i)) is not None:
             words = f"{place.reason}; but it may be {other}, which is not found"
             place = replace(place, confidence=min(place.confidence, DOUBTFUL), reason=words, runner_up=other)
         if i in self.loose:
