@@ -13,7 +13,7 @@ import trimesh
 from yellowiron.alignment import align
 from yellowiron.alignment.fusion import evidence, reading
 from yellowiron.alignment.fusion.stance import Stance, stance_of
-from yellowiron.alignment.labelling.vacancies import Vacancies
+from yellowiron.alignment.labelling.suspects import Vacancies
 from yellowiron.cad.mesh.assembly import Occurrence, assemble
 from yellowiron.library import load_template
 from yellowiron.model.alignment import Alignment, PartAssignment

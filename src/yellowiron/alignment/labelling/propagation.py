@@ -13,7 +13,7 @@ from yellowiron.alignment.assignment.names import exact_role, exact_roles
 from yellowiron.alignment.features.contacts import Fit
 from yellowiron.alignment.labelling.place import DOUBTFUL, Place, pin_role
 from yellowiron.alignment.labelling.review import STURDY, has_tyre, next_bodies, solids_without_a_body
-from yellowiron.alignment.labelling.vacancies import Vacancies
+from yellowiron.alignment.labelling.suspects import Vacancies
 from yellowiron.alignment.structure.observation import Observation
 from yellowiron.alignment.tolerances import FAR
 from yellowiron.model.geometry import Floats
