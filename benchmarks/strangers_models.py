@@ -48,6 +48,8 @@ LINKS = {
 """Of labels that are robot descriptions: which role each link is."""
 BODIES = {"upper_structure": "upperstructure"}
 """Bodies that labels call otherwise than the template."""
+ALONG_TRACKS = ("track_", "sprocket", "idler", "carrier_roller")
+"""How bodies are called whose joints are not scored: what runs along a track."""
 
 
 _SIDE = re.compile(r"_[lr]$")
@@ -168,7 +170,7 @@ def _entries(model: Model, assembly: Assembly, template: Template) -> Iterator[_
             continue
         label = known[keys[0]]
         body = label["body"]
-        bodies = ("-",) if body is None else (body, *label.get("alternatives", ()))
+        bodies = ("-" if body is None else body, *label.get("alternatives", ()))
         bodies = () if label.get("flexible") or (not body and body is not None) else bodies
         expanded = tuple(
             dict.fromkeys(b for name in bodies for b in (*_bodies(name, template), *_as_one(name, merged)))
@@ -278,7 +280,7 @@ def _joints(model: Model, template: Template) -> Iterator[TrueJoint]:
                 continue
             parent, child = links[parent], links[child]
         bodies = [_bodies(b, template) for b in (parent, child)]
-        if any(b[0].startswith(("track_", "sprocket", "idler", "carrier")) for b in bodies):
+        if any(b[0].startswith(ALONG_TRACKS) for b in bodies):
             continue
         if joint["type"] == "fixed" and links is None:
             continue

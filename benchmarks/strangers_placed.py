@@ -277,6 +277,28 @@ def templates(job: Job) -> Placed:
         yield name, _mesh(job.file(f"{own['file']}.obj")), place(name)
 
 
+def together(job: Job) -> Placed:
+    """Meshes that lie in one frame already."""
+    for file in job.files:
+        yield file.stem, _mesh(file), np.eye(4)
+
+
+def pinned(job: Job) -> Placed:
+    """A mini excavator's files, whose own description has another machine's lengths, put together on the pins that they
+    draw, each pin in a bore as wide; boom raised by 30 degrees, arm 30 off upright; Z up."""
+    raised, hanging = (Rotation.from_euler("y", -degrees, degrees=True) for degrees in (30.0, 60.0))
+    at = {"base": _place(Rotation.identity(), (0.0, 0.0, 0.0))}
+    at["upper-structure"] = at["base"] @ _place(Rotation.identity(), (0.0, 0.0, 0.6045))
+    at["boom"] = at["upper-structure"] @ _place(raised, (0.933, -0.1342, 0.322))
+    at["arm"] = at["boom"] @ _place(raised.inv() * hanging, (2.5868, 0.0, -0.6255))
+    at["bucket"] = at["arm"] @ _place(Rotation.identity(), (-1.363, 0.0, -0.1539))
+    for file in job.files:
+        read = read_cad(file)
+        for part in read.parts:
+            mesh = trimesh.Trimesh(read.points_of(part), read.shape_of(part).mesh.triangles, process=False)
+            yield file.stem if len(read.parts) == 1 else f"{file.stem}_{part.name}", mesh, at[file.stem]
+
+
 def picked(*names: str) -> Callable[[Job], Placed]:
     """The parts of these names of a file with several machines, as it is read."""
 

@@ -72,6 +72,46 @@ def test_no_hull_is_too_thin_or_too_oblong_to_be_cooked(
     assert more.max() < max(THINNEST, 2.0 * np.ptp(drawn, axis=0).max() / OBLONG)
 
 
+@given(
+    st.integers(0, 10_000),
+    st.integers(1, 12),
+    st.integers(0, 2),
+    st.sampled_from((0.01, 0.2, 5.0)),
+    st.sampled_from((0.0, 1e-12, 6e-12, 1e-9, 1e-7, 1e-5)),
+)
+@settings(max_examples=150, deadline=None)
+def test_what_is_flat_a_line_or_a_point_gets_a_hull(
+    seed: int, count: int, dimensions: int, size: float, rough: float
+) -> None:
+    """Pieces of a decomposition may be points in one plane, or nearly: `rough` metres off it, as rounding leaves
+    them."""
+    generator = np.random.default_rng(seed)
+    drawn = size * generator.uniform(-1.0, 1.0, (count, 3)) * (np.arange(3) < dimensions)
+    drawn += rough * generator.uniform(-1.0, 1.0, (count, 3))
+    points = drawn @ Rotation.random(rng=generator).as_matrix().T + generator.uniform(-2.0, 2.0, 3)
+    made = convex(points)
+    assert np.isfinite(made.corners).all()
+    assert np.isfinite(made.planes).all()
+    assert made.volume > 0.0
+    assert made.beyond(points).max() < 1e-8
+    assert np.ptp(made.corners @ made.planes[:, :3].T, axis=0).min() > THINNEST - 1e-9
+    few = with_few_corners(made, 8)
+    assert np.isfinite(few.corners).all()
+
+
+def test_a_slanted_strip_whose_plane_is_rounded_has_a_rim() -> None:
+    """Two parallelograms in one plane, 6e-12 m out of it: their hull has two sides and no face along its longest
+    edge."""
+    run, across = np.array([0.011, 0.0, 0.005]), np.array([0.0, 0.155, 0.0])
+    corners = np.array(
+        [i * run + j * across + k * 0.035 / 0.155 * across for i in (0, 1) for j in (0, 1) for k in (0, 1)]
+    )
+    corners[::3] += 6e-12 * np.array([-0.43, 0.0, 0.9])
+    made = convex(corners + np.array([0.9145786, -0.2466, 0.937433]))
+    assert np.isfinite(made.corners).all()
+    assert np.ptp(made.corners, axis=0).max() < 0.2
+
+
 @given(st.integers(0, 10_000), st.integers(8, 200))
 @settings(max_examples=40, deadline=None)
 def test_a_hull_is_what_it_is_of(seed: int, count: int) -> None:

@@ -241,6 +241,31 @@ def labelled() -> tuple[Assembly, Surface]:
     return assembly, strangers_models._surface(assembly, entries)
 
 
+def test_what_is_no_part_of_the_machine_may_have_alternatives() -> None:
+    """A collider's box is right left out, or with the body that it is the collider of, and wrong elsewhere."""
+    rows = [two_blocks("a", 0.0), two_blocks("b", 10.0)]
+    assembly = Assembly("m", "glb", 1.0, tuple(p for p, _ in rows), {p.shape: s for p, s in rows})
+    parts = {"world/a": {"body": "boom"}, "world/b": {"body": None, "alternatives": ["arm"]}}
+    template = load_template("excavator")
+    model = strangers_models.Model("m", {"parts": parts, "joints": {}}, None)
+    truth = strangers_models._surface(assembly, list(strangers_models._entries(model, assembly, template)))
+    for body, silent in ((None, 0.0), ("arm", 0.0), ("boom", 12.0)):
+        alignment = Alignment("excavator", np.eye(4), (
+            PartAssignment("world/a", "boom", "boom", 1.0, ""), PartAssignment("world/b", body, body, 1.0, ""),
+        ))  # fmt: skip
+        found = score(assembly, alignment, None, truth, (), 1.0, template)
+        assert (found.right, found.silent) == (pytest.approx(12.0), pytest.approx(silent))
+
+
+def test_a_carrier_is_no_carrier_roller() -> None:
+    """What runs along tracks is not scored; what slews on a crane's carrier is."""
+    line = {"type": "revolute", "anchor": [0, 0, 0], "axis": [0, 0, 1]}
+    pairs = {"slew": ("carrier", "superstructure"), "rolls": ("undercarriage", "carrier_roller_l[0]")}
+    joints = {name: {**line, "parent": a, "child": b} for name, (a, b) in pairs.items()}
+    model = strangers_models.Model("m", {"parts": {}, "joints": joints}, None)
+    assert [j.name for j in strangers_models._joints(model, load_template("mobile_crane"))] == ["slew"]
+
+
 def aligned(**bodies: str) -> Alignment:
     parts = [PartAssignment(f"world/{n.replace('_', '/')}", b, b, 1.0, "") for n, b in bodies.items()]
     return Alignment("excavator", np.eye(4), tuple(parts))

@@ -21,6 +21,7 @@ from yellowiron.alignment.fusion.trust import trust_in_names, worth_of_name
 from yellowiron.alignment.fusion.votes import BARS, Votes, clearly_named, joints_apart, votes_of
 from yellowiron.alignment.structure.observation import Observation
 from yellowiron.model.template import Template
+from yellowiron.support.vectors import triple
 
 PARTS = (1, 2)
 """What begins so many joints from the root may be all that is drawn."""
@@ -113,6 +114,18 @@ def ways_of(evidence: Evidence, template: Template, tracked: bool) -> list[Evide
         for way in (evidence.stance, *(() if evidence.stance.told else (evidence.stance.turned(),)))
         for stance in (way, *(() if whole else _as_parts(way, evidence, template)))
     ]
+
+
+def across(evidence: Evidence, observation: Observation, template: Template) -> list[Evidence]:
+    """How a machine that is as much alike in front and behind as to the left and right may stand besides: with its
+    front where its sides were taken to be. None where a person said where its front is."""
+    stance = evidence.stance
+    if stance.told:
+        return []
+    quarter = Facing(forward=triple(stance.rotation[1]), up=triple(stance.rotation[2]))
+    turned = evidence_of(observation, evidence.scores, evidence.answer, evidence.edited, template, quarter)
+    stances = [replace(turned.stance, told=False), replace(turned.stance.turned(), told=False)]
+    return [replace(turned, stance=stance) for stance in stances]
 
 
 def _as_parts(stance: Stance, evidence: Evidence, template: Template) -> list[Stance]:

@@ -16,7 +16,7 @@ from yellowiron.alignment.facing import UNTOLD, Facing
 from yellowiron.alignment.features.solids import Solid
 from yellowiron.alignment.fusion.annealing import CHAINS, HOT, SWEEPS, against, labelled, leads
 from yellowiron.alignment.fusion.bonds import Bond, out_of_line
-from yellowiron.alignment.fusion.evidence import Evidence, evidence_of, ways_of
+from yellowiron.alignment.fusion.evidence import Evidence, across, evidence_of, ways_of
 from yellowiron.alignment.fusion.judge import Field, field_of, score_of, weighed
 from yellowiron.alignment.fusion.pieces import Piece, largeness
 from yellowiron.alignment.fusion.played import beside_lost_arms, drawn_bodies, lacks, missing_bodies
@@ -136,6 +136,12 @@ def fused(
     ways = ways_of(evidence, template, bool(observation.rows))
     looked = [(tried(*machines[0], e, GLANCE, FEW), e) for e in ways]
     first, evidence = max(looked, key=lambda one: one[0].score)
+    if template.root not in first.played:
+        # A machine without its base is read wrongly: its sides may be its ends.
+        turned = [(tried(*machines[0], e, GLANCE, FEW), e) for e in across(evidence, observation, template)]
+        looked += [(best, e) for best, e in turned if template.root in best.played]
+        ways = [e for _, e in looked]
+        first, evidence = max(looked, key=lambda one: one[0].score)
     behind = [other.score for other, e in looked if e.stance.rotation[0] @ evidence.stance.rotation[0] < 0.0]
     ahead = first.score - max(behind, default=-np.inf)
     others = [tried(*machine, evidence, WARM, FEW, first) for machine in machines[1:]]

@@ -13,6 +13,7 @@ from yellowiron.alignment.assignment.names import exact_role, exact_roles
 from yellowiron.alignment.features.contacts import Fit
 from yellowiron.alignment.labelling.place import DOUBTFUL, Place, pin_role
 from yellowiron.alignment.labelling.review import STURDY, has_tyre, next_bodies, solids_without_a_body
+from yellowiron.alignment.labelling.suspects import Vacancies
 from yellowiron.alignment.structure.observation import Observation
 from yellowiron.alignment.tolerances import FAR
 from yellowiron.model.geometry import Floats
@@ -58,6 +59,7 @@ class Propagation:
         self.places: dict[int, Place] = {}
         self.loose = solids_without_a_body(self.solids, self.structure, self.solution)
         self.apart: dict[int, float] = {}
+        self.vacancies = Vacancies(self.solids, self.answer)
         self.cluster_of = {b: c for c, b in self.solution.body_of.items()}
         self.assemblies: dict[tuple[str, ...], list[int]] = {}
         for solid in self.solids:
@@ -88,6 +90,7 @@ class Propagation:
                 sure = 0.98 * (1.0 - math.exp(-max(what.lead, 0.0) / SURE_LEAD))
                 sure = sure if what.grounded else min(sure, DOUBTFUL)
                 self.places[i] = Place(what.body, what.body, sure, what.words, what.second, how="judged")
+            self.places |= self.vacancies.root()
             return
         second = next_bodies(self.structure, self.template, self.solution)
         for c, body in sorted(self.solution.body_of.items()):
@@ -227,7 +230,11 @@ class Propagation:
         self._give(i, Place(ranked[0], ranked[0], confidence, words.format(body=ranked[0]), second, how=how))
 
     def _give(self, i: int, place: Place) -> None:
-        """What could move on its own goes with a neighbour for want of a body, for a person to look at."""
+        """What could move on its own, or be a body that is missing, goes with a neighbour for want of a better place,
+        for a person to look at."""
+        if (other := self.vacancies.beside(place.body, i)) is not None:
+            words = f"{place.reason}; but it may be {other}, which is not found"
+            place = replace(place, confidence=min(place.confidence, DOUBTFUL), reason=words, runner_up=other)
         if i in self.loose:
             words = f"{place.reason}; but it could move on its own, and no body of the template is left for it"
             place = replace(place, confidence=min(place.confidence, DOUBTFUL), reason=words)

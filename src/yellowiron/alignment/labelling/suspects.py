@@ -1,6 +1,7 @@
 """Suspect bodies: whom to mistrust in an answer that is not whole. A body that was not found has left its parts to
 others, a joint that was not found may be a false weld, and what nothing found joins to the root may be another part of
-the machine. And suspect parts: what may be a body that was not found, by its name, or as wheels look."""
+the machine. And suspect parts: what may be a body that was not found, by its name, or as wheels look; and what may be a
+frame that was not found, by its size."""
 
 from __future__ import annotations
 
@@ -9,6 +10,7 @@ from dataclasses import dataclass, replace
 
 import numpy as np
 
+from yellowiron.alignment.assignment.answer import Answer
 from yellowiron.alignment.assignment.cp_sat import TYPED, Solution
 from yellowiron.alignment.assignment.weights import AS_GOOD
 from yellowiron.alignment.features.solids import Solid
@@ -32,6 +34,8 @@ MARGIN = 0.05
 """What reaches out of an outline by no more than this share of its size is within it."""
 TURNS = 12
 """In so many directions an outline is looked at."""
+HALF = 0.5
+"""Of a frame's usual share of the surface: what has as much may be it."""
 
 
 @dataclass(frozen=True)
@@ -151,6 +155,50 @@ def maybe_unplayed(
         sure = min(place.confidence, DOUBTFUL)
         found[i] = replace(place, confidence=sure, reason=f"{place.reason}; but {words}")
     return found
+
+
+class Vacancies:
+    """Which solids may be a frame of which nothing was found, by their size; frames that may be absent leave none."""
+
+    def __init__(self, solids: Sequence[Solid], answer: Answer) -> None:
+        judged, template = answer.judged, answer.template
+        found = {*answer.solution.body_of.values()} if judged is None else {what.body for what in judged.values()}
+        missing = [
+            r.name for r in template.roles
+            if r.rigid and r.kind == "frame" and not r.optional and r.name not in found and r.name in template.usual
+        ]  # fmt: skip
+        self._answer = answer
+        self._least = {b: HALF * template.usual[b].area for b in missing}
+        pairs = [set(template.bodies_of(joint)) for joint in template.joints]
+        # The root first: no machine lacks it.
+        order = sorted(missing, key=lambda b: (b != template.root, b))
+        self._beside = {r.name: [m for m in order if {m, r.name} in pairs] for r in template.roles if r.rigid}
+        total = sum(s.surface for s in solids) or 1.0
+        meshes: dict[str, float] = {}
+        for solid in solids:
+            meshes[solid.part.id] = meshes.get(solid.part.id, 0.0) + solid.surface / total
+        self._share = {s.index: meshes[s.part.id] for s in solids}
+        for cluster in answer.structure.clusters:
+            whole = sum(solids[i].surface for i in sorted(cluster.members)) / total
+            self._share |= {i: max(self._share[i], whole) for i in sorted(cluster.members)}
+
+    def beside(self, body: str, solid: int) -> str | None:
+        """The frame beside `body` that a solid which goes with it may be: the mesh that it is of, or what it is rigid
+        with, is large enough."""
+        return next((m for m in self._beside.get(body, ()) if self._share[solid] >= self._least[m]), None)
+
+    def root(self) -> dict[int, Place]:
+        """Solid → its place, of what was left over by the judge and is the root for want of one (`with_root`), where it
+        is large enough for that: for a person to look at."""
+        root, judged = self._answer.template.root, self._answer.judged
+        if judged is None or root not in self._least:
+            return {}
+        words = f"the largest that is left over, and nothing else is {root}"
+        left = [i for c, b in self._answer.solution.body_of.items() if b == root
+                for i in sorted(self._answer.structure.clusters[c].members - judged.keys())]  # fmt: skip
+        return {
+            i: Place(root, root, DOUBTFUL, words, how="judged") for i in left if self._share[i] >= self._least[root]
+        }
 
 
 def otherwise(places: Mapping[int, Place], solids: Sequence[Solid], told: Mapping[str, str]) -> dict[int, Place]:

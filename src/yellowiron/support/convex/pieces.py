@@ -41,14 +41,17 @@ _OPEN_WALL = 5e-3
 
 
 def hull(points: Floats) -> Mesh:
-    """The convex hull of points (n, 3), triangles outwards; a flat cloud gets a millimetre of thickness on both
-    sides."""
+    """The convex hull of points (n, 3), triangles outwards; a flat cloud, a line or a point gets a millimetre of
+    thickness on both sides, whichever way it has none."""
     from scipy.spatial import ConvexHull, QhullError
 
+    thin, axes = _thin_ways(points)
+    # Of points that rounding has put out of their plane the library makes a hull with two sides and no rim.
+    points = _thickened(points, thin)
     try:
         made = ConvexHull(points)
     except QhullError:
-        points = _thickened(points)
+        points = _thickened(points, axes[-1:])
         made = ConvexHull(points)
     used = np.unique(made.simplices)
     triangles = np.searchsorted(used, made.simplices).astype(np.int32)
@@ -60,12 +63,17 @@ def hull(points: Floats) -> Mesh:
     return Mesh(corners, triangles)
 
 
-def _thickened(points: Floats) -> Floats:
-    middle = points.mean(axis=0)
-    _, sizes, axes = np.linalg.svd(points - middle, full_matrices=False)
-    thin = axes[sizes <= max(1e-6 * float(sizes.max(initial=0.0)), 1e-9)]
-    for axis in thin if len(thin) else axes[-1:]:
-        points = np.concatenate([points + _SKIN * axis, points - _SKIN * axis])
+def _thin_ways(points: Floats) -> tuple[Floats, Floats]:
+    """The directions (k, 3) in which points (n, 3) have no extent, and all three, the longest first."""
+    # With three rows of zeros a cloud of one or two points has three directions, too.
+    cloud = np.concatenate([points - points.mean(axis=0), np.zeros((3, 3))])
+    _, sizes, axes = np.linalg.svd(cloud, full_matrices=False)
+    return axes[sizes <= max(1e-6 * float(sizes.max(initial=0.0)), 1e-9)], axes
+
+
+def _thickened(points: Floats, ways: Floats) -> Floats:
+    for way in ways:
+        points = np.concatenate([points + _SKIN * way, points - _SKIN * way])
     return points
 
 

@@ -113,7 +113,9 @@ def _ball_and_box(solid: Convex) -> tuple[float, float]:
     normals = np.abs(solid.planes[:, :3])
     room = inside - radius / np.sqrt(3.0) * (normals.sum(axis=1) - normals[:, longest])
     along = normals[:, longest] > 1e-9
-    return radius, float((room[along] / normals[along, longest]).min(initial=np.inf))
+    # It is no longer than the solid, even where no face looks that way.
+    most = 0.5 * float(solid.high[longest] - solid.low[longest])
+    return radius, float((room[along] / normals[along, longest]).min(initial=most))
 
 
 def _solid(points: Floats) -> Convex:
