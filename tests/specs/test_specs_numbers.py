@@ -191,6 +191,7 @@ def test_labels() -> None:
     assert spelled_out("5.62 (18-5)", "m|ft-in") == ("5.62 (18'5\")", "m")
     assert without_key("B Hinge pin height") == "Hinge pin height"
     assert without_key("(A) Wheelbase") == "Wheelbase"
+    assert without_key("F – Radstand") == "Radstand"  # German sheets have a dash behind the letter
     assert without_key("A' Maximum Reach") == "Maximum Reach"
     assert without_key("Bore") == "Bore"
     assert split_inline("Wheelbase: 3,450 mm") == ("Wheelbase", "3,450 mm")

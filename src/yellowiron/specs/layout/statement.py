@@ -365,7 +365,8 @@ def without_key(label: str) -> str:
     "F – Hinge pin height" → "Hinge pin height"."""
     match = re.match(
         r"^\(?(?:[A-Z]{1,2}[′'\"]?|[a-zα-ω](?=\d?[.):]*\s+[A-ZÀ-Ý])\d?|\d{1,2}(?:\.\d{1,2})*)"
-        r"[.):]*\s+(?:[-–—]\s+)?(?=[A-ZÀ-Ý(](?:-[^\W\d_])?[^\W\d_]+|(?<=[B-HJ-NP-Z] )[a-z]{4}|[\u3040-\u30ff\u3400-\u9fff])(.+)$",
+        r"[.):]*\s+(?:[-–—]\s+)?"
+        r"(?=[A-ZÀ-Ý(](?:-[^\W\d_])?[^\W\d_]+|(?<=[B-HJ-NP-Z] )[a-z]{4}|[\u3040-\u30ff\u3400-\u9fff])(.+)$",
         label,
     )
     return match.group(1) if match else label
