@@ -27,8 +27,9 @@ def linear(srgb: Sequence[float]) -> Color:
 
 
 def linear_values(srgb: Floats) -> Floats:
-    """Numbers of sRGB colours in [0, 1], of any shape, as linear ones (IEC 61966-2-1)."""
-    return np.asarray(np.where(srgb <= 0.04045, srgb / 12.92, ((srgb + 0.055) / 1.055) ** 2.4))
+    """Numbers of sRGB colours in [0, 1], of any shape, as linear ones (IEC 61966-2-1), to 12 decimals: a power's last
+    digits are the processor's."""
+    return np.asarray(np.where(srgb <= 0.04045, srgb / 12.92, ((srgb + 0.055) / 1.055) ** 2.4).round(12))
 
 
 @dataclass(frozen=True)
