@@ -7,13 +7,13 @@ import pytest
 from scipy.sparse import coo_array
 from scipy.sparse.csgraph import connected_components
 
-from yellowiron.cad.mesh.components import FEW, linked
+from yellowiron.cad.mesh.components import linked
 
 
-@pytest.mark.parametrize("seed", range(40))
+@pytest.mark.parametrize("seed", range(20))
 def test_pieces_are_scipys(seed: int) -> None:
     rng = np.random.default_rng(seed)
-    count = int(rng.integers(1, 200 if seed < 20 else FEW))
+    count = int(rng.integers(1, 200))
     pairs = rng.integers(0, count, (int(rng.integers(0, 2 * count)), 2))
     graph = coo_array((np.ones(len(pairs), dtype=np.int8), (pairs[:, 0], pairs[:, 1])), shape=(count, count))
     assert np.array_equal(linked(pairs, count), connected_components(graph, directed=False)[1])

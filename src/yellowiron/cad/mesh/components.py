@@ -7,8 +7,6 @@ import numpy as np
 from numpy.typing import NDArray
 
 Indices = NDArray[np.int64]
-FEW = 32
-"""So many pairs of so many things are joined one after the other sooner than all at once."""
 
 
 def linked(pairs: Indices, count: int) -> Indices:
@@ -18,8 +16,6 @@ def linked(pairs: Indices, count: int) -> Indices:
     Every piece is joined to the smallest of its neighbours until none is left (Borůvka's way: half of those that can
     be joined are gone each time).
     """
-    if len(pairs) <= FEW and count <= FEW:
-        return _few_linked(pairs, count)
     root = np.arange(count)
     one, other = pairs[:, 0], pairs[:, 1]
     while len(one):
@@ -31,14 +27,3 @@ def linked(pairs: Indices, count: int) -> Indices:
         while (above != root).any():
             root, above = above, above[above]
     return np.asarray((np.cumsum(root == np.arange(count)) - 1)[root], dtype=np.int64)
-
-
-def _few_linked(pairs: Indices, count: int) -> Indices:
-    """`linked`, pair by pair."""
-    root = list(range(count))
-    for pair in pairs.tolist():
-        one, other = sorted(root[k] for k in pair)
-        if one != other:
-            root = [one if r == other else r for r in root]
-    number = {r: n for n, r in enumerate(dict.fromkeys(root))}
-    return np.array([number[r] for r in root], dtype=np.int64)

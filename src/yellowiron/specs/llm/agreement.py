@@ -49,7 +49,7 @@ def agreed(
     """The specification that both readers' words make. `seen`: where the model's numbers stand, also those that its own
     label does not bear out."""
     doubted = Doubted(asked.wanted, asked.every, asked.matches, asked.nearby)
-    others = [p for p in pointed if p.sure and not alike(_value(asked, p), by_rules.value or 0.0)]
+    others = [p for p in pointed if p.sure and not alike(_value(p.match), by_rules.value or 0.0)]
     there = any(reads_same(by_rules, asked.sheets.files, spot) for spot in seen)
     if there and not others and is_answered(doubted, by_rules):
         said = f"rules and {asked.model} read the same beside '{by_rules.evidence.quote if by_rules.evidence else ''}'"
@@ -105,9 +105,9 @@ def _brought(asked: Asked, pointed: Sequence[Pointed]) -> Specification:
 def _out_of_conflict(asked: Asked, by_rules: Specification, pointed: Sequence[Pointed]) -> Specification:
     """The candidate that the model points to, where its row, its column or a footnote tells it from the others."""
     for one in pointed:
-        value = settled(asked.wanted, one.match.claim)[0].si_value
+        value = _value(one.match)
         own = [c for c in by_rules.candidates if alike(c.value, value)]
-        rounded = [_value_of(m) for m in asked.matches if _rounds(m.claim.quantity, one.match.claim.quantity)]
+        rounded = [_value(m) for m in asked.matches if _rounds(m.claim.quantity, one.match.claim.quantity)]
         others = [c for c in by_rules.candidates if not any(alike(c.value, v) for v in (value, *rounded))]
         if not own:
             continue
@@ -125,11 +125,7 @@ def _out_of_conflict(asked: Asked, by_rules: Specification, pointed: Sequence[Po
     return by_rules
 
 
-def _value(asked: Asked, one: Pointed) -> float:
-    return settled(asked.wanted, one.match.claim)[0].si_value
-
-
-def _value_of(found: Match) -> float:
+def _value(found: Match) -> float:
     return settled(found.wanted, found.claim)[0].si_value
 
 
@@ -145,7 +141,7 @@ def _is_told_apart(asked: Asked, one: Pointed, others: Sequence[Candidate]) -> b
     between."""
     wanted, statement = asked.wanted, one.place.statement
     ends = [q.si_value for r in read(statement.text, unit=statement.unit) for q in r.numbers]
-    value = settled(wanted, one.match.claim)[0].si_value
+    value = _value(one.match)
     if len(ends) == 2 and value in ends and all(min(ends) <= c.value <= max(ends) for c in others):
         return True
     said = set(tokens(f"{statement.label} {' '.join(statement.column)}"))
