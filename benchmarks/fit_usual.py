@@ -28,7 +28,7 @@ from yellowiron.library import load_template  # noqa: E402
 from yellowiron.model.template import Template  # noqa: E402
 
 TYPES = {
-    "wheel_loader": ("loader",), "excavator": ("excavator", "mini"), "skid_steer": ("skid_steer",),
+    "wheel_loader": ("loader", "parallel_loader"), "excavator": ("excavator", "mini"), "skid_steer": ("skid_steer",),
     "articulated_dump_truck": ("articulated_truck",), "rigid_dump_truck": ("rigid_truck",),
     "backhoe_loader": ("backhoe",), "roller": ("roller", "yoke_roller"), "forklift": ("forklift",),
     "telehandler": ("telehandler",), "dozer": ("dozer", "rocking_dozer"),

@@ -20,6 +20,7 @@ from kit.machines.dozers import dozer
 from kit.machines.excavators import Features, excavator
 from kit.machines.graders import grader
 from kit.machines.lift_trucks import lift_truck
+from kit.machines.parallel_loaders import parallel_loader
 from kit.machines.rigid_trucks import rigid_truck
 from kit.machines.rocking_dozers import rocking_dozer
 from kit.machines.rollers import roller
@@ -47,6 +48,8 @@ def drawn(kind: str, seed: int, *, segments: int = 32, hollow: bool = True) -> M
     try:
         if kind == "loader":
             return loader(seed, embedded=embedded, stop=stop, hoses=hoses, links=links)
+        if kind == "parallel_loader":
+            return parallel_loader(seed, embedded=embedded, hoses=hoses)
         if kind == "skid_steer":
             return skid_steer(seed, embedded=embedded)
         if kind == "articulated_truck":

@@ -641,8 +641,7 @@ class Drawer:
                     "C",
                 )
         # centre plates of the tilt cylinder (and of a single lift cylinder)
-        for side in (1, -1):
-            y = side * (self.eye_w / 2 + self.gap + t / 2)
+        for y, thickness in self.forks:
             circles = [(*E, 2 * self.pin_r)] + ([] if self.m.twin else [(*C, 2 * self.pin_r)])
             self.side_plate(
                 "tilt lug",
@@ -650,6 +649,7 @@ class Drawer:
                 y,
                 around(*circles, (x0 - e, low + t - e, 0), (x0 + 0.4 * s, low + t - e, 0)),
                 "E" if self.m.twin else "EC",
+                thickness=thickness,
             )
         # a fender that floats, a bracket that touches
         for side in (1, -1):
@@ -753,6 +753,17 @@ class Drawer:
     def y_rocker(self) -> float:
         return self.eye_w / 2 + self.gap + self.t / 2
 
+    @property
+    def forks(self) -> list[tuple[float, float]]:
+        """Where across the machine the plates of the tilt linkage stand that hold an eye between them; their
+        thickness."""
+        return [(side * self.y_rocker, self.t) for side in (1, -1)]
+
+    @property
+    def y_ear(self) -> float:
+        """Where the bucket's ears of its link stand."""
+        return self.eye_w / 2 + self.gap + self.t / 2 + (self.links - 1) * (self.t + self.gap)
+
     def rocker_and_link(self) -> None:
         m, t, w = self.m, self.t, self.eye_w
         F, G, H, J = (self.P[k] for k in "FGHJ")
@@ -823,7 +834,7 @@ class Drawer:
             wide = 1.5 * t + self.gap
             self.pin("bucket_pin", body, self.at("B", side * (self.yb + wide)), self.at("B", side * (self.yb - wide)))
         jl = np.linalg.inv(local) @ np.array([J[0], 0, J[1], 1])
-        beside = self.eye_w / 2 + self.gap + t / 2 + (self.links - 1) * (t + self.gap)
+        beside = self.y_ear
         for d in (1, -1):
             outline = around((jl[0], jl[2], 2 * self.pin_r), (back + e, 0.2 * s, 0), (back + e, 0.6 * s, 0))
             put(
@@ -834,24 +845,21 @@ class Drawer:
         half = beside + t / 2 + (self.links - 1) * (t + self.gap)
         self.pin("bucket_link_bucket_pin", body, self.at("J", -half), self.at("J", half))
 
-    def lift(self) -> None:
-        s, t = self.s, self.t
+    def world(self, p: Array) -> Array:
+        """A point of the front half where the steering has turned it."""
+        return np.asarray((self.front @ np.array([*p, 1]))[:3])
 
-        def world(p: Array) -> Array:
-            return np.asarray((self.front @ np.array([*p, 1]))[:3])
-
-        across = self.front[:3, 1]
-        self.cylinder(
-            "tilt",
-            "bucket_cylinder_barrel",
-            "bucket_piston_rod",
-            world(self.at("E", 0)),
-            world(self.at("F", 0)),
-            across,
-            0.085 * s,
-        )
-        out = self.eye_w / 2 + self.gap + t
+    def tilt(self) -> None:
+        E, F = self.world(self.at("E", 0)), self.world(self.at("F", 0))
+        across, out = self.front[:3, 1], self.eye_w / 2 + self.gap + self.t
+        self.cylinder("tilt", "bucket_cylinder_barrel", "bucket_piston_rod", E, F, across, 0.085 * self.s)
         self.pin("bucket_cylinder_barrel_pin", "front_frame", self.at("E", -out), self.at("E", out))
+
+    def lift(self) -> None:
+        s, t, world = self.s, self.t, self.world
+        across = self.front[:3, 1]
+        self.tilt()
+        out = self.eye_w / 2 + self.gap + t
         for side, tail in ((1, "_l"), (-1, "_r")) if self.m.twin else ((1, ""),):
             y = side * self.y_lift
             barrel, rod = f"boom_cylinder_barrel{tail}", f"boom_piston_rod{tail}"
