@@ -5,6 +5,8 @@ from __future__ import annotations
 import itertools
 import math
 from pathlib import Path
+from types import SimpleNamespace
+from typing import cast
 
 import numpy as np
 import pytest
@@ -12,6 +14,7 @@ import pytest
 from kit.machines.parallel_loaders import parallel_loader
 from kit.machines.partly_drawn import without
 from kit.machines.unseen import found_whole
+from yellowiron.alignment.assignment.answer import Answer, shows_what_is_special
 from yellowiron.kinematics import ClosedChain
 from yellowiron.library import load_template
 from yellowiron.model.mechanism import Mechanism
@@ -171,3 +174,27 @@ def test_its_loops_hold_in_an_engine(tmp_path: Path) -> None:
     assert result.completed and result.pin_error < 2e-4
     assert result.branches and all(branch.kept for branch in result.branches)
     assert all(a.reached_high - a.reached_low > 0.9 * a.stroke for a in result.actuators)
+
+
+def test_links_that_a_common_machine_leaves_over_are_looked_at() -> None:
+    """Its rocker taken for the tilt cylinder's barrel, its links left over: as one with its cylinder from boom to
+    bucket every joint was found, and thirteen parts were silently another body's."""
+    found = found_whole(parallel_loader(2), "wheel_loader", 2, triangles=False, spare=("bucket_link_tipping_pin",))
+    assert found.choices["tilt_linkage"] == "parallel"
+
+
+def test_half_of_what_makes_a_machine_special_does_not_show_it() -> None:
+    """A public loader with a grapple had, by contacts, 72 % of this one's joints, and a sixth of it silently wrong."""
+    template = load_template("wheel_loader")
+
+    def shown(lacking: str, **chosen: str) -> bool:
+        decided = {**template.default_choices(), "lift_cylinders": "twin", **chosen}
+        resolved = choose(template, decided)
+        found = {j.name for j in resolved.joints} - {lacking}
+        solution = SimpleNamespace(hinge_of=dict.fromkeys(found, 0), slide_of={})
+        answer = SimpleNamespace(choices=decided, template=resolved, solution=solution)
+        return shows_what_is_special(cast(Answer, answer), template)
+
+    assert shown("front_wheel_l_joint", **choices(2)) and shown("boom2rocker_joint")
+    assert not shown("front_frame2levelling_link_joint", **choices(2))
+    assert not shown("bucket_piston_rod_r2tipping_link_joint", **choices(2))

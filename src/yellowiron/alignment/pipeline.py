@@ -24,7 +24,14 @@ from dataclasses import dataclass, replace
 
 import numpy as np
 
-from yellowiron.alignment.assignment.answer import Answer, drawn_share, held_share, is_whole, rivals_of
+from yellowiron.alignment.assignment.answer import (
+    Answer,
+    drawn_share,
+    held_share,
+    is_whole,
+    rivals_of,
+    shows_what_is_special,
+)
 from yellowiron.alignment.assignment.collision import colliders
 from yellowiron.alignment.assignment.cp_sat import solve
 from yellowiron.alignment.assignment.machine_frame import MachineFrame, machine_frame
@@ -150,7 +157,7 @@ def align(
     search = Search(look, plain, specifications, choices, edited)
     answer, observation, scores = search.run()
     agreement = search.agreement
-    held = held_share(answer) >= (HELD_TOLD if edited else HELD)
+    held = held_share(answer) >= (HELD_TOLD if edited else HELD) and shows_what_is_special(answer, plain)
     share = drawn_share(answer, observation.solids)
     explained = held or share >= EXPLAINED
     contradicted = agreement < BELIEVED and not is_whole(answer)

@@ -88,6 +88,27 @@ def held_share(answer: Answer) -> float:
     return len(joints & {*answer.solution.hinge_of, *answer.solution.slide_of}) / len(joints) if joints else 1.0
 
 
+def shows_what_is_special(answer: Answer, template: Template) -> bool:
+    """Whether every hinge and slide was found that only the special machine has that an answer takes this one for
+    (`Template.special`); `template`: the type with all its variants. With half of them any other linkage would do."""
+    special = template.special() & answer.choices.items()
+    only = {
+        j.name for j in template.joints if any({(n, c) for c in allowed} <= special for n, allowed in j.when.items())
+    }
+    there = {j.name for j in answer.template.joints if j.type in MOVING}
+    return only & there <= {*answer.solution.hinge_of, *answer.solution.slide_of}
+
+
+def idle_links(answer: Answer) -> frozenset[int]:
+    """The clusters that play no body and hang on two others and more: links of a mechanism that the type, as it was
+    chosen, does not have."""
+    around: dict[int, set[int]] = {}
+    for hinge in answer.structure.hinges:
+        around.setdefault(hinge.a, set()).add(hinge.b)
+        around.setdefault(hinge.b, set()).add(hinge.a)
+    return frozenset(c for c, others in around.items() if len(others) > 1 and c not in answer.solution.body_of)
+
+
 def drawn_share(answer: Answer, solids: Sequence[Solid]) -> float:
     """How much of what is drawn an answer explains, 0 to 1: the least of its shares of the joints between the bodies
     that it has, of the drawn pins, of the slides, and of the surface. 0 where it has no closed linkage: a chain

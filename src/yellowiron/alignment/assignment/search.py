@@ -10,13 +10,14 @@ from __future__ import annotations
 
 import functools
 import itertools
-from collections.abc import Callable, Iterator, Mapping
+from collections.abc import Callable, Iterator, Mapping, Sequence
 from dataclasses import dataclass, field, replace
 
 from yellowiron.alignment.assignment.answer import (
     MARGIN,
     MOVING,
     Answer,
+    idle_links,
     is_whole,
     open_choices,
 )
@@ -124,8 +125,17 @@ class Search:
                         if self._effort.spent:
                             return self._result()
                     if self.best is not None and is_whole(self.best) and self._obeyed(self.best):
+                        if not others and idle_links(self.best):
+                            self._try_special(contact, list(itertools.chain(*rest)), careful=careful)
                         return self._result()
         return self._result()
+
+    def _try_special(self, contact: float, chosen: Sequence[dict[str, str]], *, careful: bool) -> None:
+        """Other variants on all readings of the welds: links that are left over may make a special machine whole."""
+        read = dict.fromkeys([*self._looked[contact][2], *self._readings(contact, careful=careful)])
+        for structure, one in itertools.product(read, chosen):
+            if not self._effort.spent:
+                self._try(contact, structure, one)
 
     def _obeyed(self, answer: Answer) -> bool:
         """Whether no cluster is found to be another body than what a person said of most of it."""
