@@ -171,9 +171,9 @@ def test_its_loops_hold_in_an_engine(tmp_path: Path) -> None:
     mechanism = without(machine, "wheel_loader", (), choices=choices(2))
     file = write_machine(mechanism, machine.assembly(), tmp_path, name="loader")[0]
     result = simulate(file, engine="mujoco", base="fixed")
-    assert result.completed and result.pin_error < 2e-4
+    assert result.completed and result.pin_error < 1e-5
     assert result.branches and all(branch.kept for branch in result.branches)
-    assert all(a.reached_high - a.reached_low > 0.9 * a.stroke for a in result.actuators)
+    assert all(a.reached_high - a.reached_low >= 0.9 * a.stroke for a in result.actuators)
 
 
 def test_links_that_a_common_machine_leaves_over_are_looked_at() -> None:
