@@ -17,6 +17,8 @@ _WALL_PT = 14.0
 """Points that an upright edge is high at least: more than a capital letter of a heading."""
 _GAP_PT = 2.5
 """Points within which two edges are the sides of one rule, and a step may be missing."""
+_BREAK_PT = 6.0
+"""Points of a level rule that dirt may cover."""
 _MOST = 1500
 """Edges of a page; more are a photograph's."""
 
@@ -25,7 +27,7 @@ def rules_of_picture(picture: NDArray[np.uint8], scale: float) -> list[DrawnRule
     """The rules of a page's grey picture at `scale` pixels a point, in points from the top left; the edges of fills
     are rules, too. None where a photograph covers the page."""
     grey = picture.astype(np.int16)
-    level = _edges(grey, _LEVEL_PT * scale, _GAP_PT * scale)
+    level = _whole(_edges(grey, _LEVEL_PT * scale, _GAP_PT * scale), _GAP_PT * scale, _BREAK_PT * scale)
     upright = _edges(grey.T, _WALL_PT * scale, _GAP_PT * scale)
     if len(level) + len(upright) > _MOST:
         return []
@@ -43,6 +45,18 @@ def _edges(grey: NDArray[np.int16], least: float, gap: float) -> list[tuple[floa
         dense = _windowed(mask, window) >= _SHARE * window
         edge |= mask & (_windowed(dense, window) > 0)
     return [(y + 3, a, b) for y, a, b in _runs(edge, least, gap)]
+
+
+def _whole(edges: list[tuple[float, float, float]], gap: float, widest: float) -> list[tuple[float, float, float]]:
+    """The edges, as (row, first, last), those that go on at about the same row behind a break joined."""
+    found: list[tuple[float, float, float]] = []
+    for row, first, last in sorted(edges, key=lambda edge: edge[1]):
+        ends = [i for i, (y, _, b) in enumerate(found) if abs(row - y) <= gap and 0 <= first - b <= widest]
+        if ends:
+            found[ends[-1]] = (*found[ends[-1]][:2], last)
+        else:
+            found.append((row, first, last))
+    return sorted(found)
 
 
 def _windowed(mask: NDArray[np.bool_], window: int) -> NDArray[np.int32]:

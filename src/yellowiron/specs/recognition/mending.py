@@ -18,6 +18,7 @@ def mended(text: str) -> str:
     text = re.sub(r"(?<=/cm)[?*°’'\"]$", "2", text)
     text = re.sub(r"^(\d*m)[?*°’'\"]$", r"\1²", text)
     text = re.sub(r"^(\d*\(?)[I|]?(?=/min\b)", r"\1l", text)
+    text = re.sub(r"^[—–-]+(?=\d)", "-", text)
     text = re.sub(r"(?<![A-Za-z])I(?=(?:pm|bs?|bf)(?![A-Za-z]))", "l", text)
     text = re.sub(r"(?<=[A-Za-z])[.…]{2,}$|^[.…]+(?=\d{3}|\d+[x×])|^[.…]{2,}(?=\d)", "", text)
     return text or "."

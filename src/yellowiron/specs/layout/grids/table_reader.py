@@ -35,6 +35,8 @@ from yellowiron.specs.pages.words import Page
 
 _LONGEST_SECTION = 12
 """Words; more are no heading."""
+_FEWEST_PAIRS = 3
+"""Rows of pairs that are a table of them."""
 _LONGEST_HEAD = 6
 """Words; more name no column."""
 
@@ -55,7 +57,9 @@ def read_grid(
     page: Page, grid: TableGrid, first_row: int, section: str = "", above: Sequence[TextPiece] = ()
 ) -> list[Statement]:
     """The statements of a table: a value's label is the words to its left, its column the heads above; `above` are
-    heads that stand over the table, outside of it."""
+    heads that stand over the table, outside of it. A table of pairs is two, side by side."""
+    if halves := _halves(grid):
+        return [s for half in halves for s in read_grid(page, half, first_row, section, above)]
     found: list[Statement] = []
     titles = _titles(grid)
     grid, slipped = units_in_their_rows(_with_names_carried(_without_keys(grid)))
@@ -114,6 +118,27 @@ def read_grid(
             own = [_headed(f, above) for f in own]
         found.extend(own)
     return [replace(f, slipped=f.row - first_row in slipped) for f in found] if slipped else found
+
+
+def _halves(grid: TableGrid) -> list[TableGrid]:
+    """The left and the right half of a table of pairs, a label and its value twice in a row, in which some first values
+    are words; what spans the table is in both. None for others."""
+    columns = [[c for c in grid.cells if c.lines and c.columns == (at, at + 1)] for at in range(grid.columns)]
+    spanning = [c for c in grid.cells if c.columns == (0, 4)]
+    if grid.columns != 4 or sum(map(len, [spanning, *columns])) < sum(bool(c.lines) for c in grid.cells):
+        return []
+    values = [[c for c in column if looks_like_value(c.text)] for column in columns]
+    labelled = all(
+        not v and sum(map(_is_label, c)) >= _FEWEST_PAIRS for v, c in zip(values[::2], columns[::2], strict=True)
+    )
+    valued = all(3 * len(v) >= len(c) > 0 for v, c in zip(values[1::2], columns[1::2], strict=True))
+    rows = {c.rows for c in values[3]} & {c.rows for c in columns[1] if _is_label(c)}
+    if not (labelled and valued and rows) or any(is_unit(c.text) for column in columns for c in column):
+        return []
+    whole = [replace(c, columns=(0, 2)) for c in spanning]
+    halves = [[c for c in grid.cells if at <= c.columns[0] and c.columns[1] <= at + 2] for at in (0, 2)]
+    cells = [[*whole, *(replace(c, columns=(c.columns[0] % 2, c.columns[0] % 2 + 1)) for c in half)] for half in halves]
+    return [replace(grid, cells=tuple(own), columns=2) for own in cells]
 
 
 def _sentences(
