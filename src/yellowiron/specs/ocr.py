@@ -20,7 +20,7 @@ from yellowiron.specs.layout.router import statements_of
 from yellowiron.specs.layout.statement import Statement
 from yellowiron.specs.machines import titled
 from yellowiron.specs.pages.picture_rules import rules_of_picture
-from yellowiron.specs.pages.strokes import Box, DrawnRule
+from yellowiron.specs.pages.strokes import SNAP, Box, DrawnRule
 from yellowiron.specs.pages.words import Page, Word, read_page
 from yellowiron.specs.recognition import rapid, tesseract
 from yellowiron.specs.recognition.mending import levelled
@@ -142,7 +142,9 @@ def _page(page: object, number: int, program: str) -> tuple[Page, float]:
     words = [replace(w, x0=w.x0 / unit, x1=w.x1 / unit, baseline=w.baseline / unit, size=w.size / unit) for w in words]
     rules = [DrawnRule(*_in_units((r.x0, r.top, r.x1, r.bottom), unit)) for r in rules]
     if pictured:
-        rules += [r for r in rules_of_picture(np.asarray(picture), scale * unit) if _is_by(r, words)]
+        seen = rules_of_picture(np.asarray(picture), scale * unit)
+        level = [r for r in seen if r.horizontal and _is_by(r, words)]
+        rules += [*level, *(r for r in seen if not r.horizontal and (_is_by(r, words) or _joins(r, level)))]
     return Page(
         number,
         width / unit,
@@ -164,6 +166,16 @@ def _is_by(rule: DrawnRule, words: Sequence[Word]) -> bool:
         w.x0 < rule.x0 - 0.5 and rule.x1 + 0.5 < w.x1 and w.top - 2 < rule.top and rule.bottom < w.bottom + 2
         for w in near
     )
+
+
+def _joins(wall: DrawnRule, level: Sequence[DrawnRule]) -> bool:
+    """Whether a wall ends at level rules: the side of a table may be far from its words."""
+    ends = [
+        {end for end in (wall.top, wall.bottom) if abs(end - r.top) <= SNAP}
+        for r in level
+        if r.x0 - SNAP <= wall.x0 <= r.x1 + SNAP
+    ]
+    return len(set().union(*ends)) == 2
 
 
 def _beside(typed: Sequence[Word], seen: Sequence[Word]) -> list[Word]:

@@ -19,6 +19,8 @@ _GAP_PT = 2.5
 """Points within which two edges are the sides of one rule, and a step may be missing."""
 _BREAK_PT = 6.0
 """Points of a level rule that dirt may cover."""
+_FLUSH_PT = 5.0
+"""Points within which the ends of rules are at one place: noise makes them longer and shorter."""
 _MOST = 1500
 """Edges of a page; more are a photograph's."""
 
@@ -31,6 +33,11 @@ def rules_of_picture(picture: NDArray[np.uint8], scale: float) -> list[DrawnRule
     upright = _edges(grey.T, _WALL_PT * scale, _GAP_PT * scale)
     if len(level) + len(upright) > _MOST:
         return []
+    within = _FLUSH_PT * scale
+    level, upright = (
+        _flush(level, [x for x, _, _ in upright], within),
+        _flush(upright, [y for y, _, _ in level], within),
+    )
     rules = [DrawnRule(a / scale, y / scale, b / scale, y / scale) for y, a, b in level]
     return rules + [DrawnRule(x / scale, a / scale, x / scale, b / scale) for x, a, b in upright]
 
@@ -57,6 +64,22 @@ def _whole(edges: list[tuple[float, float, float]], gap: float, widest: float) -
         else:
             found.append((row, first, last))
     return sorted(found)
+
+
+def _flush(
+    edges: list[tuple[float, float, float]], across: list[float], within: float
+) -> list[tuple[float, float, float]]:
+    """The edges, as (place, first, last), their ends at the nearest edge across them, or where others end close by."""
+    ends = sorted({end for _, *both in edges for end in both})
+    at: dict[float, float] = {}
+    while ends:
+        near = [end for end in ends if end - ends[0] <= within]
+        middle = near[len(near) // 2]
+        for end in near:
+            edge = min(across, key=lambda x: abs(x - end), default=middle)
+            at[end] = edge if abs(edge - end) <= within else middle
+        ends = ends[len(near) :]
+    return [(place, at[first], at[last]) for place, first, last in edges]
 
 
 def _windowed(mask: NDArray[np.bool_], window: int) -> NDArray[np.int32]:

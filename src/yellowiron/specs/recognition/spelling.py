@@ -19,8 +19,10 @@ _LEAST_END = 3
 """Letters of the first and the last of more than two."""
 _LEAST_MENDED = 6
 """Letters of a word that is brought to a known one: shorter ones are a letter away from too many."""
-_SEAMS = re.compile(r"(?<=[a-z]{2})(?=[A-Z][a-z]{2})|(?<=[A-Za-z]{3}[.:])(?=[A-Za-z]{3})")
-"""Where a capital follows small letters, or a word a full stop."""
+_SEAMS = re.compile(
+    r"(?<=[a-z]{2})(?=[A-Z][a-z]{2})|(?<=[A-Za-z]{3}[.:])(?=[A-Za-z]{3})|(?<=[A-Za-z]{3})(?=\([A-Za-z])|(?<=\))(?=\()"
+)
+"""Where a capital follows small letters, a word a full stop, a bracket a word or a bracket."""
 _ALIKE = ("il1tj", "ceo0", "uvy", "mn", "hbk", "5s", "8b", "gq", "fr")
 """Characters that are taken for each other."""
 
