@@ -11,6 +11,8 @@ from dataclasses import replace
 from yellowiron.specs.layout.statement import is_unit
 from yellowiron.specs.pages.words import Word
 
+_PLAIN = str.maketrans("（），：／％", "(),:/%")
+
 
 def mended(text: str) -> str:
     """A word without what is left of a leader's dots, its raised exponent of a unit put right: ".265" → "265",
@@ -18,6 +20,9 @@ def mended(text: str) -> str:
     text = re.sub(r"(?<=/cm)[?*°’'\"]$", "2", text)
     text = re.sub(r"^(\d*m)[?*°’'\"]$", r"\1²", text)
     text = re.sub(r"^(\d*\(?)[I|]?(?=/min\b)", r"\1l", text)
+    if not re.search(r"[\u3040-\u30ff\u3400-\u9fff]", text):
+        text = text.translate(_PLAIN)
+    text = re.sub(r"^s/e/[1I|]$", "s/e/l", text)
     text = re.sub(r"^(\d{4,})[”\"]$", r"\1", text)
     text = re.sub(r"^[—–-]+(?=\d)", "-", text)
     text = re.sub(r"(?<![A-Za-z])I(?=(?:pm|bs?|bf)(?![A-Za-z]))", "l", text)
