@@ -35,8 +35,6 @@ from yellowiron.specs.pages.words import Page
 
 _LONGEST_SECTION = 12
 """Words; more are no heading."""
-_FEWEST_PAIRS = 3
-"""Rows of pairs that are a table of them."""
 _LONGEST_HEAD = 6
 """Words; more name no column."""
 
@@ -121,24 +119,23 @@ def read_grid(
 
 
 def _halves(grid: TableGrid) -> list[TableGrid]:
-    """The left and the right half of a table of pairs, a label and its value twice in a row, in which some first values
-    are words; what spans the table is in both. None for others."""
+    """The halves of a table of pairs (a label and its value twice in a row, some in words); none of others."""
     columns = [[c for c in grid.cells if c.lines and c.columns == (at, at + 1)] for at in range(grid.columns)]
-    spanning = [c for c in grid.cells if c.columns == (0, 4)]
-    if grid.columns != 4 or sum(map(len, [spanning, *columns])) < sum(bool(c.lines) for c in grid.cells):
+    apart = all(c.columns == (0, 4) or c.columns[1] - c.columns[0] == 1 for c in grid.cells if c.lines)
+    if grid.columns != 4 or not apart:
         return []
     values = [[c for c in column if looks_like_value(c.text)] for column in columns]
-    labelled = all(
-        not v and sum(map(_is_label, c)) >= _FEWEST_PAIRS for v, c in zip(values[::2], columns[::2], strict=True)
-    )
-    valued = all(3 * len(v) >= len(c) > 0 for v, c in zip(values[1::2], columns[1::2], strict=True))
+    labelled = not (values[0] or values[2]) and all(len(columns[at]) >= MANY // 2 for at in (0, 2))
+    valued = all(3 * len(values[at]) >= len(columns[at]) > 0 for at in (1, 3))
     rows = {c.rows for c in values[3]} & {c.rows for c in columns[1] if _is_label(c)}
     if not (labelled and valued and rows) or any(is_unit(c.text) for column in columns for c in column):
         return []
-    whole = [replace(c, columns=(0, 2)) for c in spanning]
-    halves = [[c for c in grid.cells if at <= c.columns[0] and c.columns[1] <= at + 2] for at in (0, 2)]
-    cells = [[*whole, *(replace(c, columns=(c.columns[0] % 2, c.columns[0] % 2 + 1)) for c in half)] for half in halves]
-    return [replace(grid, cells=tuple(own), columns=2) for own in cells]
+    halves = []
+    for at in (0, 2):
+        own = [c for c in grid.cells if c.columns == (0, 4) or at <= c.columns[0] < c.columns[1] <= at + 2]
+        own = [replace(c, columns=(max(c.columns[0] - at, 0), min(c.columns[1] - at, 2))) for c in own]
+        halves.append(replace(grid, cells=tuple(own), columns=2))
+    return halves
 
 
 def _sentences(
