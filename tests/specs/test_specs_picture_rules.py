@@ -5,7 +5,9 @@ from __future__ import annotations
 import numpy as np
 import pytest
 
+from yellowiron.specs.ocr import _joins
 from yellowiron.specs.pages.picture_rules import rules_of_picture
+from yellowiron.specs.pages.strokes import DrawnRule
 from yellowiron.specs.recognition.mending import mended
 
 
@@ -36,6 +38,19 @@ def test_faint_bands_are_rules_and_the_tops_of_letters_none() -> None:
     assert all(r.x0 == pytest.approx(30.0, abs=2.0) and r.x1 == pytest.approx(430.0, abs=2.0) for r in level)
 
 
+def test_a_rule_under_dirt_is_one() -> None:
+    picture = np.full((400, 900), 250, np.uint8)
+    picture[140:142, 60:800] = 30
+    picture[138:144, 500:508] = 250  # dirt, 4 points
+    level = [r for r in rules_of_picture(picture, 2.0) if r.horizontal]
+    assert [(round(r.x0), round(r.top), round(r.x1)) for r in level] == [(30, 70, 400)]
+
+
+def test_the_side_of_a_table_far_from_its_words_is_a_wall() -> None:
+    level = [DrawnRule(60, y, 540, y) for y in (100, 127, 154)]
+    assert _joins(DrawnRule(540, 100, 540, 154), level) and not _joins(DrawnRule(540, 100, 540, 140), level)
+
+
 @pytest.mark.slow
 def test_a_photograph_has_no_rules() -> None:
     picture = np.random.default_rng(7).integers(0, 255, (900, 1300), dtype=np.uint8)
@@ -55,6 +70,14 @@ def test_a_photograph_has_no_rules() -> None:
         ("Ipm", "lpm"),
         ("Ib", "lb"),
         ("Ibaka", "Ibaka"),
+        ("—2°", "-2°"),
+        ("--2°", "-2°"),
+        ("16—52", "16—52"),
+        ("1482”", "1482"),
+        ('12"', '12"'),
+        ("s/e/1", "s/e/l"),
+        ("（mm)", "(mm)"),
+        ("（斗杆）", "（斗杆）"),
     ],
 )
 def test_words_as_they_are_misread(seen: str, meant: str) -> None:

@@ -6,16 +6,20 @@ import itertools
 from pathlib import Path
 
 import numpy as np
+import pypdfium2
 import pytest
 from PIL import Image, ImageDraw, ImageFont
-from specs_layouts import template, wanted
+from reportlab.lib.utils import ImageReader
+from specs_layouts import canvas, put, template, wanted
 from test_specs_ocr import ROWS, pictured
 
 from yellowiron.specs import extraction, ocr
+from yellowiron.specs.layout.router import statements_of
 from yellowiron.specs.layout.statement import Statement, looks_like_value
 from yellowiron.specs.ocr import Recognised, with_cubes
-from yellowiron.specs.pages.words import Word
-from yellowiron.specs.recognition.mending import levelled, without_leaders
+from yellowiron.specs.pages.words import Page, Word
+from yellowiron.specs.reader import read_sheet
+from yellowiron.specs.recognition.mending import levelled, with_whole_units, without_leaders
 from yellowiron.specs.recognition.rapid import words_of_line
 from yellowiron.specs.recognition.spelling import spelled
 from yellowiron.specs.recognition.straighten import straightened
@@ -44,6 +48,60 @@ def test_words_end_where_the_ink_has_a_gap(text: str, colours: tuple[int, int]) 
     assert words[0].x0 == pytest.approx(10.0, abs=2.0) and words[0].size == pytest.approx(15.0, rel=0.15)
 
 
+def test_letters_that_are_set_apart_are_of_one_word() -> None:
+    """As headings in capitals are: a word ends where the gap is wider than the others."""
+    picture, letters = drawn("\u200a".join("TECHNICAL DATA").replace(" ", "  "))
+    letters = [(c, x) for c, x in letters if c.isalpha()]
+    found = words_of_line(picture, (14, 8, 690, 52), letters, 2.0)
+    assert [w.text for w in found] == ["TECHNICAL", "DATA"]
+
+
+def test_the_factors_of_a_product_are_one_word() -> None:
+    def texts(*seen: str) -> list[str]:
+        return [w.text for w in with_whole_units([word(text) for text in seen])]
+
+    assert texts("2752x", "1450x2205") == texts("2752", "x1450x2205") == ["2752x1450x2205"]
+    assert texts("13.00x24", "16PR") == ["13.00x24", "16PR"] and texts("(m", "m)") == ["(mm)"]
+
+
+@pytest.mark.parametrize("points", [1.0, 8.0])
+def test_a_page_whose_points_are_pixels_is_read_as_one_of_paper(
+    tmp_path: Path, monkeypatch: pytest.MonkeyPatch, points: float
+) -> None:
+    """The words of a page of A4, drawn eight times as large: rows and boxes are those of the small one."""
+    c = canvas(tmp_path / "a.pdf")
+    c.setPageSize((595 * points, 842 * points))
+    c.rect(0, 0, 10, 10, fill=1)
+    c.save()
+    rows = [("Wheelbase", "3450", "mm"), ("Tread", "2140", "mm"), ("Overall height", "3100", "mm")]
+    seen = [
+        Word(text, points * x, points * (x + 5 * len(text)), points * (100 + 30 * n), points * 9)
+        for n, row in enumerate(rows)
+        for text, x in zip(row, (72, 300, 323), strict=True)
+    ]
+    read: list[Page] = []
+    monkeypatch.setitem(ocr._WORDS, "rapidocr", lambda picture, scale: seen)
+    monkeypatch.setattr(ocr, "statements_of", lambda page: (read.append(page), statements_of(page))[1])
+    (page,) = ocr.recognise(tmp_path / "a.pdf", [1], "rapidocr")
+    assert [(s.label, s.text) for s in page.statements] == [(a, f"{b} {c}") for a, b, c in rows]
+    assert {w.size for w in read[0].words} == {9.0} and read[0].width == pytest.approx(595, rel=1e-6)
+    assert page.statements[1].box == pytest.approx([points * v for v in (300, 123.25, 333, 131.8)], rel=1e-6)
+
+
+def test_pictures_under_a_head_that_states_nothing_are_read(tmp_path: Path) -> None:
+    def silent(*typed: str) -> tuple[int, ...]:
+        drawn = pypdfium2.PdfDocument(pictured(tmp_path / "drawn.pdf", ROWS))[0]
+        c = canvas(tmp_path / "a.pdf")
+        c.drawImage(ImageReader(drawn.render(scale=1, grayscale=True).to_pil()), 0, 0, *drawn.get_size())
+        for n, text in enumerate(typed):
+            put(c, 72, 40 + 12 * n, text)
+        c.save()
+        return read_sheet(tmp_path / "a.pdf").silent
+
+    assert silent("www.maker.example", "All rights reserved, edition 2") == (1,)
+    assert silent("www.maker.example", "Operating weight: 3500 kg") == ()
+
+
 def test_a_page_askew_is_turned_and_a_level_one_is_left() -> None:
     level = Image.new("L", (1200, 1600), 255)
     for y in range(200, 1400, 60):
@@ -68,6 +126,10 @@ def word(text: str) -> Word:
         ("Weiqht", "weight"),
         ("Hubzylinder", "Hubzylinder"),
         ("Tower", "Tower"),
+        ("Achslasten", "Achslasten"),
+        ("serviceable", "serviceable"),
+        ("DISCHARGETO", "DISCHARGE TO"),
+        ("Dimensions(without", "Dimensions (without"),
         ("C175-16", "C175-16"),
     ],
 )

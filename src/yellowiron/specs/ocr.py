@@ -6,6 +6,7 @@ What it reads is a guess: a digit may be another. Values from such pages are nev
 from __future__ import annotations
 
 import re
+import statistics
 from collections.abc import Callable, Sequence
 from dataclasses import dataclass, replace
 from pathlib import Path
@@ -19,7 +20,7 @@ from yellowiron.specs.layout.router import statements_of
 from yellowiron.specs.layout.statement import Statement
 from yellowiron.specs.machines import titled
 from yellowiron.specs.pages.picture_rules import rules_of_picture
-from yellowiron.specs.pages.strokes import DrawnRule
+from yellowiron.specs.pages.strokes import SNAP, Box, DrawnRule
 from yellowiron.specs.pages.words import Page, Word, read_page
 from yellowiron.specs.recognition import rapid, tesseract
 from yellowiron.specs.recognition.mending import levelled
@@ -43,6 +44,9 @@ _NEAR = 60.0
 """Points within which words stand by a table's rule."""
 _FEWEST = 4
 """Rules and fills; a file with fewer has its tables in its pictures."""
+_SIZES, _SIZE = (4.0, 18.0), 9.0
+"""Points between which the type of a page is, at its median, and what it is taken for on a page where it is not: there
+the file's points are a picture's pixels."""
 
 
 _SQUARE = re.compile(r"(?<=\d )m[AÂ]?[²2](?!\w)|(?<=\d)m[AÂ]?²")
@@ -86,13 +90,14 @@ def recognise(path: Path, numbers: Sequence[int], program: str) -> list[Recognis
         for number in numbers[:MOST_PAGES]:
             beat(f"Recognising the text of page {number} of {path.name}")
             try:
-                page = _page(document[number - 1], number, program)
+                page, unit = _page(document[number - 1], number, program)
             except SheetError as error:  # a page that takes too long costs no other
                 failure = error
                 continue
             if page.readable:
                 text = " ".join(w.text for w in page.words)
-                statements, near = tuple(with_cubes(statements_of(page))), nearest_of(page)
+                statements = tuple(_placed(s, unit) for s in with_cubes(statements_of(page)))
+                near = tuple(replace(n, statement=_placed(n.statement, unit)) for n in nearest_of(page))
                 found.append(Recognised(number, statements, text, tuple(stated_in(text, number)), near, titled(page)))
     finally:
         document.close()
@@ -108,9 +113,20 @@ def with_cubes(statements: Sequence[Statement]) -> list[Statement]:
     return [*statements, *again]
 
 
-def _page(page: object, number: int, program: str) -> Page:
+def _placed(statement: Statement, unit: float) -> Statement:
+    """A statement with its place in points, read in units of so many points."""
+    box = statement.box
+    return replace(statement, box=_in_units(box, 1 / unit), x0=unit * statement.x0)
+
+
+def _in_units(box: Box, unit: float) -> Box:
+    return (box[0] / unit, box[1] / unit, box[2] / unit, box[3] / unit)
+
+
+def _page(page: object, number: int, program: str) -> tuple[Page, float]:
     """A page as it looks, its words read from its picture but for those that the file has as text, its rules and fills
-    from the file or else from the picture. Points, from the top left."""
+    from the file or else from the picture; from the top left, in units of which each is so many of the file's points.
+    These are 1, if its type is as large as a sheet's."""
     drawn = read_page(page, number)
     width, height = drawn.width, drawn.height
     scale = min(_RESOLUTION[program] / 72.0, (_MOST_PIXELS / max(width * height, 1.0)) ** 0.5)
@@ -118,21 +134,27 @@ def _page(page: object, number: int, program: str) -> Page:
     rules = [r for r in drawn.rules if (r.x1 - r.x0 if r.horizontal else r.bottom - r.top) >= _SHORTEST]
     bars = [b for b in drawn.bars if b[2] - b[0] >= _SHORTEST]
     typed = drawn.words if drawn.readable else ()
-    pictured = len(rules) + len(bars) < _FEWEST and not typed
+    pictured = len(rules) + len(bars) < _FEWEST and (not typed or not drawn.partly)
     picture = straightened(picture) if pictured else picture
     words = [*typed, *_beside(typed, spelled(levelled(_WORDS[program](picture, scale))))]
+    size = statistics.median(w.size for w in words) if words else _SIZE
+    unit = 1.0 if _SIZES[0] <= size <= _SIZES[1] else size / _SIZE
+    words = [replace(w, x0=w.x0 / unit, x1=w.x1 / unit, baseline=w.baseline / unit, size=w.size / unit) for w in words]
+    rules = [DrawnRule(*_in_units((r.x0, r.top, r.x1, r.bottom), unit)) for r in rules]
     if pictured:
-        rules = [*rules, *(r for r in rules_of_picture(np.asarray(picture), scale) if _is_by(r, words))]
+        seen = rules_of_picture(np.asarray(picture), scale * unit)
+        level = [r for r in seen if r.horizontal and _is_by(r, words)]
+        rules += [*level, *(r for r in seen if not r.horizontal and (_is_by(r, words) or _joins(r, level)))]
     return Page(
         number,
-        width,
-        height,
+        width / unit,
+        height / unit,
         tuple(words),
         tuple(rules),
-        tuple(bars),
+        tuple(_in_units(b, unit) for b in bars),
         characters=sum(len(w.text) for w in words),
         images=1,
-    )
+    ), unit
 
 
 def _is_by(rule: DrawnRule, words: Sequence[Word]) -> bool:
@@ -144,6 +166,16 @@ def _is_by(rule: DrawnRule, words: Sequence[Word]) -> bool:
         w.x0 < rule.x0 - 0.5 and rule.x1 + 0.5 < w.x1 and w.top - 2 < rule.top and rule.bottom < w.bottom + 2
         for w in near
     )
+
+
+def _joins(wall: DrawnRule, level: Sequence[DrawnRule]) -> bool:
+    """Whether a wall ends at level rules: the side of a table may be far from its words."""
+    ends = [
+        {end for end in (wall.top, wall.bottom) if abs(end - r.top) <= SNAP}
+        for r in level
+        if r.x0 - SNAP <= wall.x0 <= r.x1 + SNAP
+    ]
+    return len(set().union(*ends)) == 2
 
 
 def _beside(typed: Sequence[Word], seen: Sequence[Word]) -> list[Word]:

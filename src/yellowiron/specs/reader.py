@@ -10,6 +10,7 @@ from pathlib import Path
 
 from yellowiron.model.errors import SheetError
 from yellowiron.specs.language.decimal_style import DecimalStyle, decimal_style
+from yellowiron.specs.language.numbers import read
 from yellowiron.specs.layout.facing_pages import with_labels
 from yellowiron.specs.layout.nearest import Near, nearest_of
 from yellowiron.specs.layout.page_cells import Cell, cells_of
@@ -35,12 +36,12 @@ _MOST_BYTES = 512 * 1024 * 1024
 
 @dataclass(frozen=True)
 class Sheet:
-    """A read PDF. `silent` pages have pictures or marks but no readable text, or text that is drawn in part; `style`:
-    how it writes decimals; `stated`: sentences that may say which configuration its figures are for. `recognised`:
-    pages whose words are a program's guess from their picture, all or in part (`recogniser`: whose); `unrecognised`
-    says why that program failed; `again`: the same sheet through another program. `near`: its values again, each with
-    the words around it; `cells`: the text of its pages, piece by piece; `titles`: the
-    models that the title of each page names."""
+    """A read PDF. `silent` pages have pictures or marks but no readable text, or text that is drawn in part, or
+    pictures under text where the file's states no value; `style`: how it writes decimals; `stated`: sentences that may
+    say which configuration its figures are for. `recognised`: pages whose words are a program's guess from their
+    picture, all or in part (`recogniser`: whose); `unrecognised` says why that program failed; `again`: the same sheet
+    through another program. `near`: its values again, each with the words around it; `cells`: the text of its pages,
+    piece by piece; `titles`: the models that the title of each page names."""
 
     file: str
     pages: int
@@ -76,6 +77,7 @@ def read_sheet(path: Path) -> Sheet:
             )
         statements: list[Statement] = []
         silent: list[int] = []
+        pictured: list[int] = []
         texts: list[str] = []
         stated: list[Stated] = []
         near: list[Near] = []
@@ -112,6 +114,10 @@ def read_sheet(path: Path) -> Sheet:
                 cells.extend(cells_of(page))
             if page.partly or (not page.readable and (page.images or page.characters or page.rules)):
                 silent.append(number)
+            elif page.images:
+                pictured.append(number)
+        if not any(map(_states, statements)):  # typed are a head and a foot: what they stand around is a picture
+            silent = sorted([*silent, *pictured])
         return Sheet(
             file=path.name,
             pages=len(document),
@@ -125,6 +131,11 @@ def read_sheet(path: Path) -> Sheet:
         )
     finally:
         document.close()
+
+
+def _states(statement: Statement) -> bool:
+    """Whether it is a value with a unit."""
+    return bool(statement.unit) or any(q.unit for reading in read(statement.text) for q in reading.numbers)
 
 
 def proven(statements: Sequence[Statement], page: Page) -> list[Statement]:

@@ -17,6 +17,8 @@ _WALL_PT = 14.0
 """Points that an upright edge is high at least: more than a capital letter of a heading."""
 _GAP_PT = 2.5
 """Points within which two edges are the sides of one rule, and a step may be missing."""
+_BREAK_PT = 6.0
+"""Points of a level rule that dirt may cover."""
 _MOST = 1500
 """Edges of a page; more are a photograph's."""
 
@@ -25,16 +27,17 @@ def rules_of_picture(picture: NDArray[np.uint8], scale: float) -> list[DrawnRule
     """The rules of a page's grey picture at `scale` pixels a point, in points from the top left; the edges of fills
     are rules, too. None where a photograph covers the page."""
     grey = picture.astype(np.int16)
-    level = _edges(grey, _LEVEL_PT * scale, _GAP_PT * scale)
-    upright = _edges(grey.T, _WALL_PT * scale, _GAP_PT * scale)
+    level = _edges(grey, _LEVEL_PT * scale, _GAP_PT * scale, _BREAK_PT * scale)
+    upright = _edges(grey.T, _WALL_PT * scale, _GAP_PT * scale, _GAP_PT * scale)
     if len(level) + len(upright) > _MOST:
         return []
     rules = [DrawnRule(a / scale, y / scale, b / scale, y / scale) for y, a, b in level]
     return rules + [DrawnRule(x / scale, a / scale, x / scale, b / scale) for x, a, b in upright]
 
 
-def _edges(grey: NDArray[np.int16], least: float, gap: float) -> list[tuple[float, float, float]]:
-    """The edges along the rows of a picture, from light to dark and from dark to light, as (row, first, last + 1)."""
+def _edges(grey: NDArray[np.int16], least: float, gap: float, longest: float) -> list[tuple[float, float, float]]:
+    """The edges along the rows of a picture, from light to dark and from dark to light, as (row, first, last + 1), over
+    breaks of at most `longest`."""
     step = grey[3:] - grey[:-3]
     window = max(3, int(least / 3))
     edge = np.zeros(step.shape, bool)
@@ -42,7 +45,7 @@ def _edges(grey: NDArray[np.int16], least: float, gap: float) -> list[tuple[floa
         # of an edge is what lies in a window most of whose points have the step
         dense = _windowed(mask, window) >= _SHARE * window
         edge |= mask & (_windowed(dense, window) > 0)
-    return [(y + 3, a, b) for y, a, b in _runs(edge, least, gap)]
+    return [(y + 3, a, b) for y, a, b in _runs(edge, least, gap, longest)]
 
 
 def _windowed(mask: NDArray[np.bool_], window: int) -> NDArray[np.int32]:
@@ -51,12 +54,12 @@ def _windowed(mask: NDArray[np.bool_], window: int) -> NDArray[np.int32]:
     return summed[:, window : window + mask.shape[1]] - summed[:, : mask.shape[1]]
 
 
-def _runs(mask: NDArray[np.bool_], least: float, gap: float) -> list[tuple[float, float, float]]:
+def _runs(mask: NDArray[np.bool_], least: float, gap: float, longest: float) -> list[tuple[float, float, float]]:
     """The long runs of True along the rows of a mask, as (row, first, last + 1); those of neighbouring rows are one."""
     found: list[tuple[float, float, float]] = []
     for row in np.flatnonzero(mask.sum(axis=1) >= least):
         at = np.flatnonzero(mask[row])
-        breaks = np.flatnonzero(np.diff(at) > gap)
+        breaks = np.flatnonzero(np.diff(at) > longest)
         firsts, lasts = at[np.r_[0, breaks + 1]], at[np.r_[breaks, len(at) - 1]]
         for first, last in zip(firsts, lasts, strict=True):
             if last - first < least:

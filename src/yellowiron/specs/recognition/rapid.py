@@ -27,6 +27,8 @@ _INK = 0.35
 """Share of a line's contrast from which on a point is ink."""
 _SPACE = 0.26
 """Gap between two letters, as a share of the height of a capital, from which on they are of two words."""
+_MANY, _SPACED = 8, 1.8
+"""Of so many gaps, those wider than so many times their median: letters may be set apart from each other."""
 _CAP = 0.72
 """Height of a capital letter or digit as a share of the size of its font."""
 _X_HEIGHT = 0.52
@@ -78,6 +80,7 @@ def words_of_line(
     small = all(c in _SMALL for c, _ in letters if c.isalnum())
     capital = (last + 1 - first) * (_CAP / _X_HEIGHT if small else 1.0)
     gaps = [(int(a) + 1, int(b)) for a, b in itertools.pairwise(columns) if b - a > 1]
+    apart_set = _SPACED * float(np.median([b - a for a, b in gaps])) if len(gaps) >= _MANY else 0.0
     runs: list[tuple[list[str], float, float]] = [([], float(columns[0]), float(columns[-1]) + 1)]
     spaced = False
     before: tuple[str, float] | None = None
@@ -90,7 +93,7 @@ def words_of_line(
             least = (
                 _SPACE_BEFORE_CAPITAL if len(runs[-1][0]) > 1 and before[0].islower() and letter.isupper() else _SPACE
             )
-            apart = wide is not None and wide[1] - wide[0] >= least * capital
+            apart = wide is not None and wide[1] - wide[0] >= max(least * capital, apart_set)
             if spaced or (apart and not (before[0] in _IN_NUMBERS and letter in _IN_NUMBERS)):
                 end, start = wide or ((before[1] + at) / 2, (before[1] + at) / 2)
                 text, x0, x1 = runs[-1]

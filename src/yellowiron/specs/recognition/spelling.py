@@ -15,10 +15,14 @@ _LEAST_RUN = 8
 """Letters of a word that may be several."""
 _LEAST_PART = 4
 """Letters of one of them at least, so that no word is cut into fillers."""
+_LEAST_END = 3
+"""Letters of the first and the last of more than two."""
 _LEAST_MENDED = 6
 """Letters of a word that is brought to a known one: shorter ones are a letter away from too many."""
-_SEAMS = re.compile(r"(?<=[a-z]{2})(?=[A-Z][a-z]{2})|(?<=[A-Za-z]{3}[.:])(?=[A-Za-z]{3})")
-"""Where a capital follows small letters, or a word a full stop."""
+_SEAMS = re.compile(
+    r"(?<=[a-z]{2})(?=[A-Z][a-z]{2})|(?<=[A-Za-z]{3}[.:])(?=[A-Za-z]{3})|(?<=[A-Za-z]{3})(?=\([A-Za-z])|(?<=\))(?=\()"
+)
+"""Where a capital follows small letters, a word a full stop, a bracket a word or a bracket."""
 _ALIKE = ("il1tj", "ceo0", "uvy", "mn", "hbk", "5s", "8b", "gq", "fr")
 """Characters that are taken for each other."""
 
@@ -59,7 +63,11 @@ def _parts(run: str) -> tuple[int, ...]:
         ]
         best[end] = min(ways, key=len, default=None)
     found = best[-1] or ()
-    return found[:-1] if any(b - a >= _LEAST_PART for a, b in pairwise((0, *found))) else ()
+    lengths = [b - a for a, b in pairwise((0, *found))]
+    # of more than two none ends in a filler: "Achslasten" in no "en", "serviceable" in no "ab le"
+    words = bool(lengths) and max(lengths) >= _LEAST_PART
+    words = words and (len(lengths) == 2 or min(lengths[0], lengths[-1]) >= _LEAST_END)
+    return found[:-1] if words else ()
 
 
 def _mended(word: Word) -> Word:

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import re
 
-from yellowiron.specs.language.vocabulary import OPPOSITES, tokens
+from yellowiron.specs.language.vocabulary import GENERAL, OPPOSITES, tokens
 from yellowiron.specs.layout.statement import joined
 
 _CROSS = re.compile(
@@ -55,6 +55,8 @@ def enumerated(label: str, count: int) -> list[str]:
     names = list(_SIZES.get("".join(names), initials if all(initials) else names))
     if any("stroke" in tokens(n) for n in names):  # "diameter × stroke" of a cylinder
         names = ["bore" if tokens(n) == ("diameter",) else n for n in names]
+    if tuple(names) == _LWH and frozenset(tokens(prefix)) <= GENERAL:  # of nothing else than the machine
+        prefix = f"overall {prefix}"
     across = _OFF.sub(" ", prefix)
     return [" ".join(f"{prefix if n == 'length' else across} {n} {suffix}".split()) for n in names]
 
