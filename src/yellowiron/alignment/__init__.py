@@ -39,6 +39,7 @@ if TYPE_CHECKING:
     from yellowiron.alignment.files.explanation import explain
     from yellowiron.alignment.files.heard import as_said
     from yellowiron.alignment.files.whole import ABSENT, parse_machine, whole
+    from yellowiron.alignment.labelling.apart import between_found, plain_bodies
     from yellowiron.alignment.labelling.confidence import REVIEW
     from yellowiron.alignment.labelling.halves import of_drawn
     from yellowiron.alignment.mixed_units import in_one_unit, reviewed
@@ -49,6 +50,7 @@ __all__ = [
     "REVIEW",
     "align",
     "as_said",
+    "between_found",
     "decide",
     "declared_roles",
     "discover",
@@ -61,6 +63,7 @@ __all__ = [
     "parse_machine",
     "parse_rules",
     "parts_in",
+    "plain_bodies",
     "read_alignment",
     "read_joints",
     "read_values",
@@ -79,6 +82,7 @@ __getattr__, __dir__ = lazy_names(
         "REVIEW": "labelling.confidence",
         "align": "pipeline",
         "as_said": "files.heard",
+        "between_found": "labelling.apart",
         "decide": "files.decisions",
         "declared_roles": "discovery.robot",
         "discover": "discovery.discover",
@@ -91,6 +95,7 @@ __getattr__, __dir__ = lazy_names(
         "parse_machine": "files.whole",
         "parse_rules": "files.decisions",
         "parts_in": "files.alignment_json",
+        "plain_bodies": "labelling.apart",
         "read_alignment": "files.alignment_json",
         "read_joints": "files.alignment_json",
         "read_values": "files.alignment_json",
