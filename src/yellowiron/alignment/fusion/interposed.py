@@ -18,6 +18,7 @@ from yellowiron.alignment.fusion.best import Best, drawn, field_of_leading, labe
 from yellowiron.alignment.fusion.bonds import Bond
 from yellowiron.alignment.fusion.evidence import Evidence
 from yellowiron.alignment.fusion.judge import KINDS, NEVER, Field, Ints
+from yellowiron.alignment.fusion.pieces import Piece
 from yellowiron.alignment.fusion.played import missing_bodies
 from yellowiron.alignment.fusion.votes import BARS
 from yellowiron.alignment.fusion.weights import weights
@@ -25,7 +26,7 @@ from yellowiron.model.template import Template
 
 BETTER = 12.0
 """By so much the reading with a body between must be the better one, in a fair comparison …"""
-AS_GOOD = -12.0
+AS_GOOD = -25.0
 """… and from here on its piece is for a person to look at."""
 TYPED = (*BARS, "wheel")
 Machine = tuple[dict[str, str], Template]
@@ -93,8 +94,12 @@ def _tried(place: _Place, best: Best, evidence: Evidence) -> Iterator[tuple[floa
     chief = _largest(evidence, best.labels, len(own))
     for n, k in enumerate(evidence.leading):
         piece = evidence.pieces[k]
-        around = {int(start[n]), *(int(start[m]) for m, bond in _around(evidence, n) if bond.beside or bond.hinge)}
-        if piece.kind or place.body not in votes[k] or n in chief or not {near, far} <= around:
+        around = [(m, bond) for m, bond in _around(evidence, n) if bond.beside or bond.hinge]
+        if piece.kind or place.body not in votes[k] or n in chief:
+            continue
+        if not {near, far} <= {int(start[n]), *(int(start[m]) for m, _ in around)}:
+            continue
+        if not any(bond.hinge or _is_bar(evidence.pieces[evidence.leading[m]]) for m, bond in around):
             continue
         unary = field.unary.copy()
         unary[n] = NEVER
@@ -118,6 +123,10 @@ def _tried(place: _Place, best: Best, evidence: Evidence) -> Iterator[tuple[floa
         yield lead, k, Best(
             score, place.choices, place.template, field, labels, votes, evidence.leading, {k: words}
         )  # fmt: skip
+
+
+def _is_bar(piece: Piece) -> bool:
+    return piece.slender or piece.kind in BARS
 
 
 def _largest(evidence: Evidence, labels: np.ndarray, none: int) -> set[int]:
