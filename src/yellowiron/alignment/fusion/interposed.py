@@ -13,6 +13,7 @@ from dataclasses import dataclass, replace
 
 import numpy as np
 
+from yellowiron.alignment.assignment.sides import twin_role
 from yellowiron.alignment.fusion.annealing import labelled
 from yellowiron.alignment.fusion.best import Best, drawn, field_of_leading, labels_in, whole_score
 from yellowiron.alignment.fusion.bonds import Bond
@@ -65,7 +66,8 @@ def _places(best: Best, machines: Sequence[Machine]) -> Iterator[_Place]:
     found: dict[str, list[tuple[int, _Place]]] = {}
     for choices, template in machines:
         theirs, bodies = _hinges(template), _plain(template)
-        for body in sorted(bodies - own):
+        # Of twins one alone is none.
+        for body in sorted(b for b in bodies - own if twin_role(b) is None):
             beside = sorted({str(b) for pair in theirs if body in pair for b in pair - {body}} & own & best.played)
             for near, far in ((a, b) for a in beside for b in beside if template.depth(a) < template.depth(b)):
                 if frozenset((near, far)) in hinges - theirs:
