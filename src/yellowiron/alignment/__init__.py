@@ -22,6 +22,7 @@ from typing import TYPE_CHECKING
 from yellowiron.support.lazy import lazy_names
 
 if TYPE_CHECKING:
+    from yellowiron.alignment.apart import between_found, plain_bodies
     from yellowiron.alignment.assignment.sides import twin_role
     from yellowiron.alignment.assignment.unit_scale import to_scale
     from yellowiron.alignment.discovery.discover import discover
@@ -39,7 +40,6 @@ if TYPE_CHECKING:
     from yellowiron.alignment.files.explanation import explain
     from yellowiron.alignment.files.heard import as_said
     from yellowiron.alignment.files.whole import ABSENT, parse_machine, whole
-    from yellowiron.alignment.labelling.apart import between_found, plain_bodies
     from yellowiron.alignment.labelling.confidence import REVIEW
     from yellowiron.alignment.labelling.halves import of_drawn
     from yellowiron.alignment.mixed_units import in_one_unit, reviewed
@@ -82,7 +82,7 @@ __getattr__, __dir__ = lazy_names(
         "REVIEW": "labelling.confidence",
         "align": "pipeline",
         "as_said": "files.heard",
-        "between_found": "labelling.apart",
+        "between_found": "apart",
         "decide": "files.decisions",
         "declared_roles": "discovery.robot",
         "discover": "discovery.discover",
@@ -95,7 +95,7 @@ __getattr__, __dir__ = lazy_names(
         "parse_machine": "files.whole",
         "parse_rules": "files.decisions",
         "parts_in": "files.alignment_json",
-        "plain_bodies": "labelling.apart",
+        "plain_bodies": "apart",
         "read_alignment": "files.alignment_json",
         "read_joints": "files.alignment_json",
         "read_values": "files.alignment_json",
