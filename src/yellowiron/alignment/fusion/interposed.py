@@ -21,7 +21,7 @@ from yellowiron.alignment.fusion.evidence import Evidence
 from yellowiron.alignment.fusion.judge import KINDS, NEVER, Field, Ints
 from yellowiron.alignment.fusion.pieces import Piece
 from yellowiron.alignment.fusion.played import missing_bodies
-from yellowiron.alignment.fusion.votes import BARS
+from yellowiron.alignment.fusion.votes import BARS, Votes
 from yellowiron.alignment.fusion.weights import weights
 from yellowiron.model.template import Template
 
@@ -29,6 +29,8 @@ BETTER = 12.0
 """By so much the reading with a body between must be the better one, in a fair comparison …"""
 AS_GOOD = -25.0
 """… and from here on its piece is for a person to look at."""
+HOPELESS = -100.0
+"""What is so far behind is no nearer without the halves of hydraulic cylinders that are none."""
 TYPED = (*BARS, "wheel")
 Machine = tuple[dict[str, str], Template]
 
@@ -91,9 +93,9 @@ def _tried(place: _Place, best: Best, evidence: Evidence) -> Iterator[tuple[floa
     """By how much the variant is better with each piece that may be the body, which that is, and the labelling."""
     votes = evidence.votes(place.template)
     field = field_of_leading(evidence, votes, place.template)
-    own, start = best.field.bodies, labels_in(field, best, evidence.leading)
+    start = labels_in(field, best, evidence.leading)
     body, near, far = (field.bodies.index(b) for b in (place.body, place.near, place.far))
-    chief = _largest(evidence, best.labels, len(own))
+    chief = _largest(evidence, best.labels, len(best.field.bodies))
     for n, k in enumerate(evidence.leading):
         piece = evidence.pieces[k]
         around = [(m, bond) for m, bond in _around(evidence, n) if bond.beside or bond.hinge]
@@ -109,22 +111,30 @@ def _tried(place: _Place, best: Best, evidence: Evidence) -> Iterator[tuple[floa
         held = replace(field, unary=unary)
         labels = np.where(np.arange(len(start)) == n, body, start)
         labels, _ = labelled(held, labels, sweeps=0, chains=1)
+        if _lead(place, best, evidence, field, votes, labels, n) < HOPELESS:
+            continue
         labels = _without_idle_bars(evidence, labels, held, place.template)
         if not _moves(evidence, field, labels, n, (near, body), best.template):
             continue
+        lead = _lead(place, best, evidence, field, votes, labels, n)
         score = whole_score(evidence, field, labels, place.template)
-        lead = score - best.score
-        lead += _unseen(evidence, field, labels, place.template, best.template)
-        lead -= _unseen(evidence, best.field, best.labels, best.template, place.template)
-        idle = _idle(evidence, best.field, best.labels, n) - _idle(evidence, field, labels, n)
-        lead += weights()["exact"] * idle
-        if k in evidence.shared | evidence.borne | evidence.namesakes and best.labels[n] < len(own):
-            was = best.votes[k].get(own[int(best.labels[n])], {}).get("name", 0.0)
-            lead += weights()["name"] * max(0.0, was - votes[k][place.body].get("name", 0.0))
-        words = f"stands between {place.near} and {place.far}"
-        yield lead, k, Best(
-            score, place.choices, place.template, field, labels, votes, evidence.leading, {k: words}
-        )  # fmt: skip
+        why = {k: f"stands between {place.near} and {place.far}"}
+        yield lead, k, Best(score, place.choices, place.template, field, labels, votes, evidence.leading, why)
+
+
+def _lead(
+    place: _Place, best: Best, evidence: Evidence, field: Field, votes: Votes, labels: Ints, n: int
+) -> float:  # fmt: skip
+    """By how much the labels with a leading piece as the body are better than the best ones, in a fair comparison."""
+    lead = whole_score(evidence, field, labels, place.template) - best.score
+    lead += _unseen(evidence, field, labels, place.template, best.template)
+    lead -= _unseen(evidence, best.field, best.labels, best.template, place.template)
+    lead += weights()["exact"] * (_idle(evidence, best.field, best.labels, n) - _idle(evidence, field, labels, n))
+    k, was = evidence.leading[n], int(best.labels[n])
+    if k in evidence.shared | evidence.borne | evidence.namesakes and was < len(best.field.bodies):
+        named = best.votes[k].get(best.field.bodies[was], {}).get("name", 0.0)
+        lead += weights()["name"] * max(0.0, named - votes[k][place.body].get("name", 0.0))
+    return lead
 
 
 def _is_bar(piece: Piece) -> bool:
