@@ -12,13 +12,13 @@ from yellowiron import cad, kinematics, library, specs
 from yellowiron.alignment import (
     align,
     as_said,
+    between_apart,
     between_found,
     decide,
     declared_roles,
     in_one_unit,
     of_drawn,
     parts_in,
-    plain_bodies,
     read_alignment,
     reviewed,
     said_in,
@@ -197,8 +197,7 @@ def _roles_in_one_unit(
         # A variant that has more of them misses more, and finds no more for that.
         limb = fewer and ((now > before and lacking < lacked) or rolls) and len(lost) <= len(gained)
         # A bracket between two others that the meshes do not show is no less for its cylinder, which is not drawn.
-        more = between_found(best, other, template) and plain_bodies(best, template) <= plain_bodies(other, template)
-        limb = limb or (bool(more) and len(lost) <= len(gained))
+        limb = limb or (bool(between_apart(best, other, template)) and len(lost) <= len(gained))
         most = hidden(alignment) > len(moving) and hidden(other) < 0.5 * hidden(alignment)
         pinned = len(other.missing) < 0.5 * len(alignment.missing)
         # Names that agree with the meshes and not with what is made of their crumbs tell these to be another machine's;

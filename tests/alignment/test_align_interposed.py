@@ -2,13 +2,14 @@
 
 from __future__ import annotations
 
+from dataclasses import replace
 from types import SimpleNamespace
 from typing import Any, cast
 
 import numpy as np
 import pytest
 
-from yellowiron.alignment import between_found, plain_bodies
+from yellowiron.alignment import between_apart, between_found
 from yellowiron.alignment.axes import estimate
 from yellowiron.alignment.axes.values import Candidate
 from yellowiron.alignment.fusion.best import Best, field_of_leading, whole_score
@@ -34,11 +35,12 @@ def _beside(a: int, b: int, *, turned: bool = False, level: bool = False) -> Bon
     return Bond(a, b, {"beside": 1.0}, True, turned or level, False, turned=turned, level=level)
 
 
-def _machine(*, pinned: bool, own: bool, name: float = 1.0) -> Any:
+def _machine(*, pinned: bool, own: bool, name: float = 1.0, place: float = -1.0) -> Any:
     """Five bodies in a row that a person named, and a small piece between the second and the third, called as the
-    second is (`own`: by a name that no other piece bears), with an upright pin to it or not."""
+    second is (`own`: by a name that no other piece bears), with an upright pin to it or not;
+    `place`: what speaks against its being a bracket there."""
     sure: list[dict[str, dict[str, float]]] = [{body: {"said": 1.0}} for body in CHAIN]
-    bracket = {"upperstructure": {"name": name, "place": 1.0}, "swing_bracket": {"place": -1.0}}
+    bracket = {"upperstructure": {"name": name, "place": 1.0}, "swing_bracket": {"place": place}}
     pieces = [
         SimpleNamespace(kind="", area=area, slender=False, center=np.zeros(3), spread=np.ones(3))
         for area in (4.0, 3.0, 1.0, 1.0, 1.0, 0.2)
@@ -89,6 +91,13 @@ def test_its_own_name_and_the_want_of_a_pin_keep_it(template: Template, pinned: 
     assert not doubtful
 
 
+def test_a_bracket_is_where_brackets_usually_are(template: Template) -> None:
+    """A drum that an artist sank into the house under the boom, too high and too far behind for a bracket, is none."""
+    found, doubtful = _read(_machine(pinned=True, own=False, place=1.5), template)
+    assert found.choices["boom_type"] == "mono"
+    assert not doubtful
+
+
 def test_what_could_as_well_be_a_bracket_is_doubtful(template: Template) -> None:
     leads = [_read(_machine(pinned=True, own=True, name=share), template) for share in np.linspace(0.0, 1.0, 21)]
     kinds = [found.choices["boom_type"] if not doubtful else "doubtful" for found, doubtful in leads]
@@ -116,7 +125,12 @@ def test_taking_apart_finds_a_bracket_that_pins_show(template: Template) -> None
     assert between_found(whole, apart, template) == {"swing_bracket"}
     assert not between_found(apart, whole, template)
     assert not between_found(apart, apart, template)
-    assert plain_bodies(apart, template) - plain_bodies(whole, template) == {"swing_bracket"}
+    assert between_apart(whole, apart, template) == {"swing_bracket"}
+    mesh = replace(whole, parts=(*whole.parts, replace(apart.parts[-1], role="boom", body="boom")))
+    assert between_found(mesh, apart, template)
+    assert not between_apart(mesh, apart, template), "what is a mesh of its own is what it was found to be"
+    fewer = replace(apart, parts=tuple(p for p in apart.parts if p.body != "bucket"))
+    assert not between_apart(whole, fewer, template)
     guess = _alignment(template, "swing", (*CHAIN, "swing_bracket"), ("upperstructure2swing_bracket_joint",))
     assert not between_found(whole, guess, template)
 

@@ -22,7 +22,7 @@ from typing import TYPE_CHECKING
 from yellowiron.support.lazy import lazy_names
 
 if TYPE_CHECKING:
-    from yellowiron.alignment.apart import between_found, plain_bodies
+    from yellowiron.alignment.apart import between_apart, between_found
     from yellowiron.alignment.assignment.sides import twin_role
     from yellowiron.alignment.assignment.unit_scale import to_scale
     from yellowiron.alignment.discovery.discover import discover
@@ -50,6 +50,7 @@ __all__ = [
     "REVIEW",
     "align",
     "as_said",
+    "between_apart",
     "between_found",
     "decide",
     "declared_roles",
@@ -63,7 +64,6 @@ __all__ = [
     "parse_machine",
     "parse_rules",
     "parts_in",
-    "plain_bodies",
     "read_alignment",
     "read_joints",
     "read_values",
@@ -82,6 +82,7 @@ __getattr__, __dir__ = lazy_names(
         "REVIEW": "labelling.confidence",
         "align": "pipeline",
         "as_said": "files.heard",
+        "between_apart": "apart",
         "between_found": "apart",
         "decide": "files.decisions",
         "declared_roles": "discovery.robot",
@@ -95,7 +96,6 @@ __getattr__, __dir__ = lazy_names(
         "parse_machine": "files.whole",
         "parse_rules": "files.decisions",
         "parts_in": "files.alignment_json",
-        "plain_bodies": "apart",
         "read_alignment": "files.alignment_json",
         "read_joints": "files.alignment_json",
         "read_values": "files.alignment_json",

@@ -8,7 +8,7 @@ axis through the piece that no joint explains counts as one that a joint does.
 
 from __future__ import annotations
 
-from collections.abc import Iterator, Sequence
+from collections.abc import Iterator, Mapping, Sequence
 from dataclasses import dataclass, replace
 
 import numpy as np
@@ -21,7 +21,7 @@ from yellowiron.alignment.fusion.evidence import Evidence
 from yellowiron.alignment.fusion.judge import KINDS, NEVER, Field, Ints
 from yellowiron.alignment.fusion.pieces import Piece
 from yellowiron.alignment.fusion.played import missing_bodies
-from yellowiron.alignment.fusion.votes import BARS, Votes
+from yellowiron.alignment.fusion.votes import BARS, Features, Votes
 from yellowiron.alignment.fusion.weights import weights
 from yellowiron.model.template import Template
 
@@ -96,6 +96,10 @@ def _tried(place: _Place, best: Best, evidence: Evidence) -> Iterator[tuple[floa
     start = labels_in(field, best, evidence.leading)
     body, near, far = (field.bodies.index(b) for b in (place.body, place.near, place.far))
     chief = _largest(evidence, best.labels, len(best.field.bodies))
+    none, known = len(field.bodies), {r.name for r in best.template.roles}
+    rams = [b for b, name in enumerate(field.bodies) if field.halves[b] and name not in known]
+    rest = field.unary.copy()
+    rest[best.labels == len(best.field.bodies), :none] = NEVER
     for n, k in enumerate(evidence.leading):
         piece = evidence.pieces[k]
         around = [(m, bond) for m, bond in _around(evidence, n) if bond.beside or bond.hinge]
@@ -103,9 +107,14 @@ def _tried(place: _Place, best: Best, evidence: Evidence) -> Iterator[tuple[floa
             continue
         if not {near, far} <= {int(start[n]), *(int(start[m]) for m, _ in around)}:
             continue
+        if not _in_place(place, votes[k], best.votes[k], best.field.bodies, int(best.labels[n])):
+            continue
         if not any(bond.hinge or _is_bar(evidence.pieces[evidence.leading[m]]) for m, bond in around):
             continue
-        unary = field.unary.copy()
+        # What is nothing of the machine stays so, but for the body's own cylinder beside it.
+        unary = rest.copy()
+        for m, _ in around:
+            unary[m, rams] = field.unary[m, rams]
         unary[n] = NEVER
         unary[n, body] = field.unary[n, body]
         held = replace(field, unary=unary)
@@ -135,6 +144,15 @@ def _lead(
         named = best.votes[k].get(best.field.bodies[was], {}).get("name", 0.0)
         lead += weights()["name"] * max(0.0, named - votes[k][place.body].get("name", 0.0))
     return lead
+
+
+def _in_place(
+    place: _Place, votes: Mapping[str, Features], before: Mapping[str, Features], bodies: Sequence[str], was: int
+) -> bool:
+    """Whether a piece is where the body usually is as much as where the two beside it are, and what it was so far."""
+    others = [votes[b].get("place", 0.0) for b in (place.near, place.far) if b in votes]
+    others += [before[bodies[was]].get("place", 0.0)] if was < len(bodies) else []
+    return votes[place.body].get("place", 0.0) <= min(others, default=np.inf)
 
 
 def _is_bar(piece: Piece) -> bool:
@@ -207,7 +225,7 @@ def _without_idle_bars(evidence: Evidence, labels: Ints, field: Field, template:
     score, none = whole_score(evidence, field, labels, template), len(field.bodies)
     while True:
         halves = sorted({int(n) for n in labels if n < none and field.halves[n]})
-        groups = [[n] for n in halves] + ([halves] if len(halves) > 1 else [])
+        groups = [[n] for n in halves] + ([np.flatnonzero(field.halves).tolist()] if halves else [])
         tried = [_relabelled(field, labels, group) for group in groups]
         scores = [whole_score(evidence, field, other, template) for other in tried]
         if not scores or max(scores) <= score + 1.0:
