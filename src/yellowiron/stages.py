@@ -12,6 +12,8 @@ from yellowiron import cad, kinematics, library, specs
 from yellowiron.alignment import (
     align,
     as_said,
+    between_apart,
+    between_found,
     decide,
     declared_roles,
     in_one_unit,
@@ -194,13 +196,15 @@ def _roles_in_one_unit(
         (now, lacking), (before, lacked) = limbs(other), limbs(best)
         # A variant that has more of them misses more, and finds no more for that.
         limb = fewer and ((now > before and lacking < lacked) or rolls) and len(lost) <= len(gained)
+        # A bracket between two others that the meshes do not show is no less for its cylinder, which is not drawn.
+        limb = limb or (bool(between_apart(best, other, template)) and len(lost) <= len(gained))
         most = hidden(alignment) > len(moving) and hidden(other) < 0.5 * hidden(alignment)
         pinned = len(other.missing) < 0.5 * len(alignment.missing)
         # Names that agree with the meshes and not with what is made of their crumbs tell these to be another machine's;
-        # of meshes that are few bodies of many (one a material) they tell nothing.
+        # of meshes that are few bodies of many (one a material) they tell nothing. Nor is a bracket lost in crumbs.
         played = {part.body for part in best.parts} - {*best.missing}
         told = not misnamed(best) and hidden(best) <= len(played)
-        contrary = told and misnamed(other)
+        contrary = (told and misnamed(other)) or bool(between_found(other, best, template))
         if not contrary and (limb or ((fewer or best is alignment) and (most or pinned))):
             model, best = apart, other
     return model, _of_drawn(best, model, template)

@@ -21,11 +21,12 @@ from yellowiron.alignment.assignment.search import Search
 from yellowiron.alignment.features.solids import size_of, solids_of
 from yellowiron.alignment.fusion import reading
 from yellowiron.alignment.fusion.annealing import Annealing, against, labelled, leads
+from yellowiron.alignment.fusion.best import Best
 from yellowiron.alignment.fusion.bonds import ENOUGH, Bond, _kin, _together, _welded, out_of_line
 from yellowiron.alignment.fusion.judge import Field, field_of, score_of
 from yellowiron.alignment.fusion.pieces import Piece, largeness, leading
 from yellowiron.alignment.fusion.played import beside_lost_arms
-from yellowiron.alignment.fusion.reading import CONTRARY, _Best, _by_any_labels, _one_name
+from yellowiron.alignment.fusion.reading import CONTRARY, _by_any_labels, _one_name
 from yellowiron.alignment.fusion.stance import Stance, stance_of
 from yellowiron.alignment.fusion.votes import LENT, borrowed
 from yellowiron.alignment.fusion.weights import weights
@@ -85,11 +86,11 @@ def test_a_variant_takes_over_anothers_labels_where_it_is_better_by_them(
     field = field_of(votes, [], excavator, weights())
     boom, arm = (field.bodies.index(b) for b in ("boom", "arm"))
     lost = {(boom, boom): -30.0, (boom, arm): 0.0}
-    monkeypatch.setattr(reading, "_lacking", lambda _, __, labels, ___: lost[tuple(labels.tolist())])
+    monkeypatch.setattr(reading, "lacking", lambda _, __, labels, ___: lost[tuple(labels.tolist())])
 
-    def judged(*labels: int) -> _Best:
+    def judged(*labels: int) -> Best:
         score = score_of(field, np.array(labels)) + lost[labels]
-        return _Best(score, {}, excavator, field, np.array(labels), [], (0, 1))
+        return Best(score, {}, excavator, field, np.array(labels), [], (0, 1))
 
     evidence = cast("Any", SimpleNamespace(leading=(0, 1)))
     own, other = judged(boom, boom), judged(boom, arm)

@@ -22,6 +22,7 @@ from typing import TYPE_CHECKING
 from yellowiron.support.lazy import lazy_names
 
 if TYPE_CHECKING:
+    from yellowiron.alignment.apart import between_apart, between_found
     from yellowiron.alignment.assignment.sides import twin_role
     from yellowiron.alignment.assignment.unit_scale import to_scale
     from yellowiron.alignment.discovery.discover import discover
@@ -49,6 +50,8 @@ __all__ = [
     "REVIEW",
     "align",
     "as_said",
+    "between_apart",
+    "between_found",
     "decide",
     "declared_roles",
     "discover",
@@ -79,6 +82,8 @@ __getattr__, __dir__ = lazy_names(
         "REVIEW": "labelling.confidence",
         "align": "pipeline",
         "as_said": "files.heard",
+        "between_apart": "apart",
+        "between_found": "apart",
         "decide": "files.decisions",
         "declared_roles": "discovery.robot",
         "discover": "discovery.discover",

@@ -85,9 +85,10 @@ def estimate_axes(
         planar.append((linkage, way, drawn))
     pivots = pivots or {}
     trust = trust_in_pivots({n: c for _, _, drawn in planar for n, c in drawn.items()}, pivots, size)
-    for (joint,) in (joints for joints, flat in groups if not flat):
-        if joint.type == "revolute":
-            found[joint.name] = _single(joint, template, bodies, frame, pivots, trust, loose)
+    alone = [joint for (joint,) in (joints for joints, flat in groups if not flat) if joint.type == "revolute"]
+    slewing = _slewing_pivots(alone, template, bodies, frame, pivots, size)
+    for joint in alone:
+        found[joint.name] = _single(joint, template, bodies, frame, slewing, trust, loose)
     for linkage, way, hinges in planar:
         turning = [j for j in linkage if j.type == "revolute"]
         left = _left_pivots(turning, hinges, pivots, template, size)
@@ -259,6 +260,21 @@ def _hinge(
     origin = clues.line.origin + place * clues.line.direction
     across = max(_RING_OFF * half, clues.line.across)
     return [Candidate(origin, way.vector, across, way.angle, RING_QUALITY, "the ring about the barrel"), *found]
+
+
+def _slewing_pivots(
+    alone: Sequence[JointTemplate], template: Template, bodies: Mapping[str, Body], frame: Frame,
+    pivots: Mapping[str, Floats], size: float,
+) -> Mapping[str, Floats]:  # fmt: skip
+    """The pivots, where frames turn on each other about several upright axes, as a swing bracket on what slews: those
+    left out that are drawn to be another one's. All that is of one file may have its origin."""
+    upright = [j for j in alone if is_upright([j], template)]
+    if len(upright) < 2 or not any(j.name in pivots for j in upright):
+        return pivots
+    pairs = {j.name: [str(name) for name in template.bodies_of(j)] for j in upright}
+    shown = {name: [slewing_candidate(bodies[a], bodies[b], frame)] for name, (a, b) in pairs.items()}
+    left = _left_pivots(upright, shown, pivots, template, size)
+    return {name: points for name, points in pivots.items() if name not in pairs} | left
 
 
 def _left_pivots(

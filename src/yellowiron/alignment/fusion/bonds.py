@@ -122,10 +122,15 @@ def _stems(observation: Observation, pieces: Sequence[Piece]) -> dict[tuple[int,
     silent = unnamed(s.part.name for s in observation.solids)
     for k, piece in enumerate(pieces):
         own = {observation.solids[i].part.name for i in piece.members} - silent
-        names = {re.sub(r"[\W\d_]+", "", name.casefold()) for name in own}
+        names = {stem_of(name) for name in own}
         for name in names - {""}:
             groups.setdefault(name, set()).add(k)
     return _together(groups.values(), max(2, FEW * len(pieces)))
+
+
+def stem_of(name: str) -> str:
+    """A name without its numbers and signs."""
+    return re.sub(r"[\W\d_]+", "", name.casefold())
 
 
 def _together(groups: Iterable[set[int]], most: float) -> dict[tuple[int, int], float]:

@@ -14,15 +14,18 @@ from yellowiron.alignment.assignment.names import borne_by_others
 from yellowiron.alignment.assignment.search import machine_of
 from yellowiron.alignment.facing import UNTOLD, Facing
 from yellowiron.alignment.features.solids import size_of
-from yellowiron.alignment.fusion.bonds import Bond, bonds_of
+from yellowiron.alignment.fusion.bonds import Bond, bonds_of, stem_of
 from yellowiron.alignment.fusion.pieces import Piece, leading, pieces_of
 from yellowiron.alignment.fusion.stance import Stance, on_wheels, stance_of
 from yellowiron.alignment.fusion.trust import trust_in_names, worth_of_name
 from yellowiron.alignment.fusion.votes import BARS, Votes, clearly_named, joints_apart, votes_of
 from yellowiron.alignment.structure.observation import Observation
+from yellowiron.model.assembly import Part
 from yellowiron.model.template import Template
 from yellowiron.support.vectors import triple
 
+SEVERAL = 3
+"""A name that so many pieces bear, but for its number, is an assembly's: two may be the left and the right one."""
 PARTS = (1, 2)
 """What begins so many joints from the root may be all that is drawn."""
 
@@ -33,7 +36,8 @@ class Evidence:
     far names are trusted, which pieces share theirs with others (solids of one mesh), how the machine stands, what the
     names say of each solid, what the contacts gave, what a person said, which pieces are bars in bores: pins, if they
     are not halves of hydraulic cylinders, the `surface` of all that is drawn, tracks too, m², and which pieces have no
-    name but that of a part which they hang on in the tree (`borne`)."""
+    name but that of a part which they hang on in the tree (`borne`), or one that, but for its number, several bear, as
+    all that is of one file does (`namesakes`)."""
 
     pieces: tuple[Piece, ...]
     leading: tuple[int, ...]
@@ -47,6 +51,7 @@ class Evidence:
     pins: frozenset[int]
     surface: float
     borne: frozenset[int] = frozenset()
+    namesakes: frozenset[int] = frozenset()
 
     @property
     def between(self) -> list[Bond]:
@@ -102,7 +107,16 @@ def evidence_of(
     hung = borne_by_others(tuple(s.part for s in observation.solids), template)
     hanging = frozenset(k for k, p in enumerate(pieces) if p.members <= hung)
     surface = sum(s.surface for s in drawn) or 1.0
-    return Evidence(pieces, leads, bonds, trust, shared, stance, scores, answer, edited, pins, surface, hanging)
+    return Evidence(
+        pieces, leads, bonds, trust, shared, stance, scores, answer, edited, pins, surface, hanging, _namesakes(parts)
+    )
+
+
+def _namesakes(parts: Sequence[Sequence[Part]]) -> frozenset[int]:
+    """The pieces whose names are those of `SEVERAL` pieces and more, but for their numbers."""
+    stems = [{stem_of(part.name) for part in mine} for mine in parts]
+    counts = Counter(stem for mine in stems for stem in mine)
+    return frozenset(k for k, mine in enumerate(stems) if all(counts[stem] >= SEVERAL for stem in mine))
 
 
 def ways_of(evidence: Evidence, template: Template, tracked: bool) -> list[Evidence]:

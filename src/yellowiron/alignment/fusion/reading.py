@@ -15,11 +15,13 @@ from yellowiron.alignment.assignment.sides import twin_role
 from yellowiron.alignment.facing import UNTOLD, Facing
 from yellowiron.alignment.features.solids import Solid
 from yellowiron.alignment.fusion.annealing import CHAINS, HOT, SWEEPS, against, labelled, leads
+from yellowiron.alignment.fusion.best import Best, field_of_leading, labels_in, lacking
 from yellowiron.alignment.fusion.bonds import Bond, out_of_line
 from yellowiron.alignment.fusion.evidence import Evidence, across, evidence_of, ways_of
-from yellowiron.alignment.fusion.judge import Field, field_of, score_of, weighed
-from yellowiron.alignment.fusion.pieces import Piece, largeness
-from yellowiron.alignment.fusion.played import beside_lost_arms, drawn_bodies, lacks, missing_bodies
+from yellowiron.alignment.fusion.interposed import interposed
+from yellowiron.alignment.fusion.judge import field_of, score_of, weighed
+from yellowiron.alignment.fusion.pieces import Piece
+from yellowiron.alignment.fusion.played import beside_lost_arms, missing_bodies
 from yellowiron.alignment.fusion.stance import Stance
 from yellowiron.alignment.fusion.votes import (
     BARS,
@@ -62,25 +64,6 @@ CLEAR_LEAD = 12.0
 
 
 @dataclass(frozen=True, eq=False)
-class _Best:
-    """The best labelling so far: its score, the variants chosen, the template with them, the labels of the leading
-    pieces (their numbers: `leading`), and what they were judged by."""
-
-    score: float
-    choices: dict[str, str]
-    template: Template
-    field: Field
-    labels: np.ndarray
-    votes: Votes
-    leading: tuple[int, ...]
-
-    @property
-    def played(self) -> set[str]:
-        """The bodies that a piece is of."""
-        return {self.field.bodies[n] for n in self.labels if n < len(self.field.bodies)}
-
-
-@dataclass(frozen=True, eq=False)
 class Fused:
     """The fused `answer`, how the machine stands, how far its names were trusted (0 to 1), what the judge makes of it,
     and what it makes of the bodies that the `contacts` alone gave, however the machine stands; how much better it is
@@ -110,7 +93,7 @@ def fused(
     said that the machine faces. The solution's joints are those that the contacts show an exact axis of."""
     evidence = evidence_of(observation, scores, answer, edited, template, facing)
 
-    found_so_far: dict[tuple[Evidence, int], _Best] = {}
+    found_so_far: dict[tuple[Evidence, int], Best] = {}
 
     def tried(
         chosen: dict[str, str],
@@ -118,16 +101,16 @@ def fused(
         evidence: Evidence,
         sweeps: int = SWEEPS,
         chains: int = CHAINS,
-        start: _Best | None = None,
-    ) -> _Best:
+        start: Best | None = None,
+    ) -> Best:
         last = found_so_far.get((evidence, id(resolved)))
         votes = last.votes if last is not None else evidence.votes(resolved)
-        field = last.field if last is not None else _field(evidence, votes, resolved)
-        first = _labels_in(field, start, evidence.leading) if start is not None else None
+        field = last.field if last is not None else field_of_leading(evidence, votes, resolved)
+        first = labels_in(field, start, evidence.leading) if start is not None else None
         hot = HOT if start is None else WARM_UP
         labels, score = labelled(field, first, hot=hot, sweeps=sweeps, chains=chains)
-        score += _lacking(evidence, field.bodies, labels, resolved)
-        found = _Best(score, chosen, resolved, field, labels, votes, evidence.leading)
+        score += lacking(evidence, field.bodies, labels, resolved)
+        found = Best(score, chosen, resolved, field, labels, votes, evidence.leading)
         # A longer annealing may end beside what a shorter one had found.
         found_so_far[evidence, id(resolved)] = max(last or found, found, key=lambda b: b.score)
         return found_so_far[evidence, id(resolved)]
@@ -148,7 +131,7 @@ def fused(
     glanced = sorted((first, *others), key=lambda b: -b.score)
     likely = [tried(b.choices, b.template, evidence) for b in glanced[:LIKELY]]
     bare = [(b, as_drawn(b.template, b.played)) for b in likely]
-    likely += [tried(b.choices, drawn, evidence) for b, drawn in bare if drawn is not b.template]
+    likely += [tried(b.choices, shown, evidence) for b, shown in bare if shown is not b.template]
     likely = [_by_any_labels(b, likely, evidence) for b in likely]
     found_so_far |= {(evidence, id(b.template)): b for b in likely}
     best = max(likely, key=lambda b: b.score)
@@ -166,24 +149,26 @@ def fused(
         wider = replace(evidence, leading=tuple(sorted({*evidence.leading, *more})))
         best = tried(best.choices, best.template, wider, 0, 1, best)
         evidence = wider
+    unsaid = _unsaid(best, evidence)
+    best, doubtful = interposed(best, machines, evidence)
     tried_so = [(b.choices, b.score) for b in likely]
     as_good = open_choices(best.choices, tried_so, max(b.score for b in likely) - AS_GOOD)
     contacts = max(_unsaid(_of_contacts(answer, way), way) for way in ways)
     pieces, trust = evidence.pieces, evidence.trust
-    judged = _judged(best, evidence)
+    judged = _judged(best, evidence, doubtful)
     judged = {i: what for i, what in judged.items() if not _is_pin(i, what, observation, best.template)}
     judged |= _by_name_alone(observation, pieces, scores, trust, judged)
     judged = judged or _all_root(pieces, best.template)
     answer = replace(_answer(observation, best, judged, answer, evidence.stance), open_choices=as_good)
-    return Fused(answer, evidence.stance, trust, _unsaid(best, evidence), contacts, ahead)
+    return Fused(answer, evidence.stance, trust, unsaid, contacts, ahead)
 
 
-def _of_contacts(answer: Answer, evidence: Evidence) -> _Best:
+def _of_contacts(answer: Answer, evidence: Evidence) -> Best:
     """The labelling that the contacts alone gave, as the judge scores it; a piece is of the body that most of it is
     of."""
     template = answer.template
     votes = evidence.votes(template)
-    field = _field(evidence, votes, template)
+    field = field_of_leading(evidence, votes, template)
     none = len(field.bodies)
     solved = {
         i: field.bodies.index(body)
@@ -198,11 +183,11 @@ def _of_contacts(answer: Answer, evidence: Evidence) -> _Best:
         known = [told[i] for i in sorted(members & told.keys())] or [solved.get(i, none) for i in members]
         counts = np.bincount(known, minlength=none + 1)
         labels[n] = int(np.argmax(counts))
-    score = score_of(field, labels) + _lacking(evidence, field.bodies, labels, template)
-    return _Best(score, dict(answer.choices), template, field, labels, votes, evidence.leading)
+    score = score_of(field, labels) + lacking(evidence, field.bodies, labels, template)
+    return Best(score, dict(answer.choices), template, field, labels, votes, evidence.leading)
 
 
-def _unsaid(best: _Best, evidence: Evidence) -> float:
+def _unsaid(best: Best, evidence: Evidence) -> float:
     """What a labelling scores without what a person said."""
     return best.score - _said(evidence, best.votes, best.field.bodies, best.labels)
 
@@ -214,46 +199,19 @@ def _said(evidence: Evidence, votes: Votes, bodies: Sequence[str], labels: np.nd
     return weights()["said"] * told
 
 
-def _lacking(evidence: Evidence, bodies: Sequence[str], labels: np.ndarray, template: Template) -> float:
-    """What a labelling loses by what the variant has and nothing plays."""
-    played = _drawn(evidence, bodies, labels, template)
-    lacking = lacks(template, played, evidence.stance.absent, len(evidence.leading))
-    return weighed({**lacking, "place": evidence.crowding}, weights())
-
-
-def _field(evidence: Evidence, votes: Votes, resolved: Template) -> Field:
-    """The score of the leading pieces."""
-    pieces = [evidence.pieces[k] for k in evidence.leading]
-    told = [votes[k] for k in evidence.leading]
-    return field_of(told, evidence.between, resolved, weights(), out_of_line(pieces), largeness(pieces))
-
-
-def _labels_in(field: Field, other: _Best, leading: Sequence[int]) -> np.ndarray:
-    """Another variant's labels as those of a field of the `leading` pieces: of the same bodies, or of none, as are
-    pieces that it did not have."""
-    place = {body: n for n, body in enumerate(field.bodies)}
-    told = [place.get(body, len(place)) for body in other.field.bodies]
-    labels = dict(zip(other.leading, np.array([*told, len(place)])[other.labels].tolist(), strict=True))
-    return np.array([labels.get(k, len(place)) for k in leading], dtype=np.int64)
-
-
-def _by_any_labels(best: _Best, others: Sequence[_Best], evidence: Evidence) -> _Best:
+def _by_any_labels(best: Best, others: Sequence[Best], evidence: Evidence) -> Best:
     """A variant with its own labels, or with those of another one where it scores better by them: annealing does not
     know what a body costs that nothing plays, and may leave one out that another variant has."""
-    told = [_labels_in(best.field, other, evidence.leading) for other in others if other is not best]
+    told = [labels_in(best.field, other, evidence.leading) for other in others if other is not best]
     scored = [
-        (score_of(best.field, labels) + _lacking(evidence, best.field.bodies, labels, best.template), n)
+        (score_of(best.field, labels) + lacking(evidence, best.field.bodies, labels, best.template), n)
         for n, labels in enumerate(told)
     ]
     score, n = max(scored, key=lambda one: (one[0], -one[1]), default=(best.score, -1))
     return replace(best, score=score, labels=told[n]) if score > best.score + BY_OTHERS else best
 
 
-def _drawn(evidence: Evidence, bodies: Sequence[str], labels: np.ndarray, template: Template) -> set[str]:
-    return drawn_bodies([evidence.pieces[k] for k in evidence.leading], labels, bodies, template, evidence.surface)
-
-
-def _between_found(best: _Best, evidence: Evidence) -> set[int]:
+def _between_found(best: Best, evidence: Evidence) -> set[int]:
     """The pieces too small to lead that lie between bodies which a body joins that nothing plays, where only a few of
     such bodies are missing: links are small."""
     bodies, template = best.field.bodies, best.template
@@ -285,8 +243,9 @@ def _is_pin(i: int, what: Judged, observation: Observation, template: Template) 
     return i in observation.evidence[-1].fasteners and template.role(what.body).kind not in BARS
 
 
-def _judged(best: _Best, evidence: Evidence) -> dict[int, Judged]:
-    """Solid → what it was judged to be: the leading pieces first, then the others among the bodies these play."""
+def _judged(best: Best, evidence: Evidence, doubtful: frozenset[int]) -> dict[int, Judged]:
+    """Solid → what it was judged to be: the leading pieces first, then the others among the bodies these play;
+    `doubtful` pieces are for review."""
     pieces, chief, bonds = evidence.pieces, evidence.leading, evidence.bonds
     bodies = best.field.bodies
     none = len(bodies)
@@ -317,7 +276,7 @@ def _judged(best: _Best, evidence: Evidence) -> dict[int, Judged]:
         if k in label_of:
             n = list(chief).index(k)
             margin, other = float(lead[n]), int(second[n])
-            doubted = contrary[n] > CONTRARY or body in unsure
+            doubted = contrary[n] > CONTRARY or body in unsure or k in best.between or k in doubtful
         else:
             doubted = False
             margin, other = float(lead_all[k]), int(second_all[k])
@@ -325,6 +284,8 @@ def _judged(best: _Best, evidence: Evidence) -> dict[int, Judged]:
                 continue
         vote = best.votes[k][body]
         words = _words(body, margin, bodies[other] if other < none else None, vote)
+        words = f"{words}; it {best.between[k]}" if k in best.between else words
+        words = f"{words}; but it could be a body between two others" if k in doubtful else words
         # What a mesh is called is true of no more than two of three of its solids, and what carries a part is not it.
         own = (not alone and k not in evidence.shared | evidence.borne) or "said" in vote
         grounded = own and not doubted and _grounded(body, best.votes[k], named(piece, evidence.scores), evidence.trust)
@@ -333,7 +294,7 @@ def _judged(best: _Best, evidence: Evidence) -> dict[int, Judged]:
     return found
 
 
-def _with_twins(label_of: Mapping[int, int], best: _Best, bonds: Sequence[Bond]) -> dict[int, int]:
+def _with_twins(label_of: Mapping[int, int], best: Best, bonds: Sequence[Bond]) -> dict[int, int]:
     """Piece → label, for those judged to be nothing whose mirror image is of a body that has no twin: a link's other
     plate."""
     bodies = best.field.bodies
@@ -412,7 +373,7 @@ def _is_beside(solid: Solid, body: str, judged: Mapping[int, Judged], observatio
 
 
 def _answer(
-    observation: Observation, best: _Best, judged: Mapping[int, Judged], answer: Answer, stance: Stance
+    observation: Observation, best: Best, judged: Mapping[int, Judged], answer: Answer, stance: Stance
 ) -> Answer:
     """The labelling as clusters, hinges and slides: one cluster a body."""
     kinds = {r.name: r.kind for r in best.template.roles if r.rigid}
@@ -426,7 +387,7 @@ def _answer(
     )  # fmt: skip
 
 
-def _solution(structure: Structure, body_of: Mapping[int, str], best: _Best, stance: Stance) -> Solution:
+def _solution(structure: Structure, body_of: Mapping[int, str], best: Best, stance: Stance) -> Solution:
     """The joints that exact axes are there for, in a direction that they may have: of several between two bodies the
     one that most pins run through."""
     linkage_of, _, tools = linkages_of(best.template)

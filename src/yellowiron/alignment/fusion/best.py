@@ -1,0 +1,71 @@
+"""A labelling of a machine's leading pieces, what it was judged by, and what it scores."""
+
+from __future__ import annotations
+
+from collections.abc import Mapping, Sequence
+from dataclasses import dataclass
+from dataclasses import field as made
+
+import numpy as np
+
+from yellowiron.alignment.fusion.bonds import out_of_line
+from yellowiron.alignment.fusion.evidence import Evidence
+from yellowiron.alignment.fusion.judge import Field, field_of, score_of, weighed
+from yellowiron.alignment.fusion.pieces import largeness
+from yellowiron.alignment.fusion.played import drawn_bodies, lacks
+from yellowiron.alignment.fusion.votes import Votes
+from yellowiron.alignment.fusion.weights import weights
+from yellowiron.model.template import Template
+
+
+@dataclass(frozen=True, eq=False)
+class Best:
+    """The best labelling so far: its score, the variants chosen, the template with them, the labels of the leading
+    pieces (their numbers: `leading`), and what they were judged by. `between`: piece → why it is a body between two
+    others, where a variant was chosen for that (`interposed`)."""
+
+    score: float
+    choices: dict[str, str]
+    template: Template
+    field: Field
+    labels: np.ndarray
+    votes: Votes
+    leading: tuple[int, ...]
+    between: Mapping[int, str] = made(default_factory=dict)
+
+    @property
+    def played(self) -> set[str]:
+        """The bodies that a piece is of."""
+        return {self.field.bodies[n] for n in self.labels if n < len(self.field.bodies)}
+
+
+def field_of_leading(evidence: Evidence, votes: Votes, resolved: Template) -> Field:
+    """The score of the leading pieces."""
+    pieces = [evidence.pieces[k] for k in evidence.leading]
+    told = [votes[k] for k in evidence.leading]
+    return field_of(told, evidence.between, resolved, weights(), out_of_line(pieces), largeness(pieces))
+
+
+def labels_in(field: Field, other: Best, leading: Sequence[int]) -> np.ndarray:
+    """Another variant's labels as those of a field of the `leading` pieces: of the same bodies, or of none, as are
+    pieces that it did not have."""
+    place = {body: n for n, body in enumerate(field.bodies)}
+    told = [place.get(body, len(place)) for body in other.field.bodies]
+    labels = dict(zip(other.leading, np.array([*told, len(place)])[other.labels].tolist(), strict=True))
+    return np.array([labels.get(k, len(place)) for k in leading], dtype=np.int64)
+
+
+def drawn(evidence: Evidence, bodies: Sequence[str], labels: np.ndarray, template: Template) -> set[str]:
+    """The bodies that the labels show as drawn."""
+    return drawn_bodies([evidence.pieces[k] for k in evidence.leading], labels, bodies, template, evidence.surface)
+
+
+def lacking(evidence: Evidence, bodies: Sequence[str], labels: np.ndarray, template: Template) -> float:
+    """What a labelling loses by what the variant has and nothing plays."""
+    lost = lacks(template, drawn(evidence, bodies, labels, template), evidence.stance.absent, len(evidence.leading))
+    return weighed({**lost, "place": evidence.crowding}, weights())
+
+
+def whole_score(evidence: Evidence, field: Field, labels: np.ndarray, template: Template) -> float:
+    """What a labelling scores with what the variant has and nothing plays."""
+    return score_of(field, labels) + lacking(evidence, field.bodies, labels, template)
