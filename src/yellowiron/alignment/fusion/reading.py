@@ -17,7 +17,8 @@ from yellowiron.alignment.features.solids import Solid
 from yellowiron.alignment.fusion.annealing import CHAINS, HOT, SWEEPS, against, labelled, leads
 from yellowiron.alignment.fusion.bonds import Bond, out_of_line
 from yellowiron.alignment.fusion.evidence import Evidence, across, evidence_of, ways_of
-from yellowiron.alignment.fusion.judge import Field, field_of, score_of, weighed
+from yellowiron.alignment.fusion.judge import NEVER, Field, field_of, score_of, weighed
+from yellowiron.alignment.fusion.limbs import along_limbs, limbs_in
 from yellowiron.alignment.fusion.pieces import Piece, largeness
 from yellowiron.alignment.fusion.played import beside_lost_arms, drawn_bodies, lacks, missing_bodies
 from yellowiron.alignment.fusion.stance import Stance
@@ -166,6 +167,7 @@ def fused(
         wider = replace(evidence, leading=tuple(sorted({*evidence.leading, *more})))
         best = tried(best.choices, best.template, wider, 0, 1, best)
         evidence = wider
+    best, evidence = _along_limbs(best, evidence)
     tried_so = [(b.choices, b.score) for b in likely]
     as_good = open_choices(best.choices, tried_so, max(b.score for b in likely) - AS_GOOD)
     contacts = max(_unsaid(_of_contacts(answer, way), way) for way in ways)
@@ -272,6 +274,38 @@ def _between_found(best: _Best, evidence: Evidence) -> set[int]:
         for body in missing
         if min(apart.get((body, b), 9) for b in near) == 1 and sum(apart.get((body, b), 9) <= 2 for b in near) > 1
     }
+
+
+def _along_limbs(best: _Best, evidence: Evidence) -> tuple[_Best, Evidence]:
+    """The labelling once the limbs are known: links and cylinders by where they are on these, small pieces with the
+    large ones, warmed from what was found. Frames, limbs and tools stay what they are; what only the judged of a limb
+    tells may be taken for a body that nothing plays yet. The score, by which variants compare, is as it was."""
+    pieces, bodies, none = evidence.pieces, best.field.bodies, len(best.field.bodies)
+    own = {k: bodies[n] if n < none else "" for k, n in zip(evidence.leading, best.labels.tolist(), strict=True)}
+    limbs = limbs_in(pieces, {k: body for k, body in own.items() if body}, best.template, evidence.stance)
+    apart = joints_apart(best.template)
+    missing = missing_bodies(best.template, best.played)
+    open_ones = best.played | {m for m in missing if sum(apart.get((m, b), 9) == 1 for b in best.played) > 1}
+    hung = limbs.keys() & open_ones
+    if not hung:
+        return best, evidence
+    votes = along_limbs(best.votes, pieces, limbs, best.template, evidence.stance)
+    stays = {k for k, body in own.items() if body not in hung}
+    pins = evidence.pins - own.keys()
+    told = [
+        {b: what for b, what in mine.items() if b in ({own[k]} | hung if k in stays else open_ones) and k not in pins}
+        for k, mine in enumerate(votes)
+    ]
+    everything = replace(evidence, leading=tuple(range(len(pieces))))
+    field = _field(everything, told, best.template)
+    field.unary[sorted(k for k in stays if own[k]), none] = NEVER
+    labels, _ = labelled(field, _labels_in(field, best, everything.leading), hot=WARM_UP, sweeps=WARM)
+    lead, _ = leads(field, labels)
+    names = [bodies[n] if n < none else "" for n in labels.tolist()]
+    chosen = {k for k, body in enumerate(names) if k in own or (body in hung and lead[k] >= CLEAR_LEAD)}
+    wider = replace(evidence, leading=tuple(sorted(chosen)))
+    field = _field(wider, votes, best.template)
+    return replace(best, field=field, labels=labels[list(wider.leading)], votes=votes, leading=wider.leading), wider
 
 
 def _all_root(pieces: Sequence[Piece], template: Template) -> dict[int, Judged]:
