@@ -53,9 +53,7 @@ def limb_of(own: Floats, toward: Floats) -> Limb:
     return Limb(middle + 0.5 * (low + high) * along, np.array([along, LEFT, np.cross(along, LEFT)]), float(high - low))
 
 
-def limbs_in(
-    pieces: Sequence[Piece], bodies: Mapping[int, str], template: Template, stance: Stance
-) -> dict[str, Limb]:
+def limbs_in(pieces: Sequence[Piece], bodies: Mapping[int, str], template: Template, stance: Stance) -> dict[str, Limb]:
     """Body that hangs on a limb → this, where that and what it carries are played. `bodies`: piece → its body."""
     found, known = {}, dict[tuple[str, str], Limb]()
     for body, along in _hanging(template).items():
@@ -106,4 +104,3 @@ def _surprise(stance: Stance, piece: Piece, along: AlongLimb, limb: Limb) -> flo
     off = (limb.place(stance.place(piece.samples)) - 0.5 * (low + high)) / spread
     near = 0.5 * float(np.mean(np.minimum((off * off).sum(axis=1), FARTHEST)))
     return min(near + float(np.log(10 * limb.length * spread).sum()), MOST)
-

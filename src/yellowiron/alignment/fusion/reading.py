@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Mapping, Sequence
+from collections.abc import Collection, Mapping, Sequence
 from dataclasses import dataclass, replace
 
 import numpy as np
@@ -278,8 +278,8 @@ def _between_found(best: _Best, evidence: Evidence) -> set[int]:
 
 def _along_limbs(best: _Best, evidence: Evidence) -> tuple[_Best, Evidence]:
     """The labelling once the limbs are known: links and cylinders by where they are on these, small pieces with the
-    large ones, warmed from what was found. Frames, limbs and tools stay what they are; what only the judged of a limb
-    tells may be taken for a body that nothing plays yet. The score, by which variants compare, is as it was."""
+    large ones, warmed from what was found. Frames, limbs and tools stay what they are, or become such a body; one that
+    nothing plays yet may be played where what it joins is there. The score, by which variants compare, is as it was."""
     pieces, bodies, none = evidence.pieces, best.field.bodies, len(best.field.bodies)
     own = {k: bodies[n] if n < none else "" for k, n in zip(evidence.leading, best.labels.tolist(), strict=True)}
     limbs = limbs_in(pieces, {k: body for k, body in own.items() if body}, best.template, evidence.stance)
@@ -290,19 +290,24 @@ def _along_limbs(best: _Best, evidence: Evidence) -> tuple[_Best, Evidence]:
     if not hung:
         return best, evidence
     votes = along_limbs(best.votes, pieces, limbs, best.template, evidence.stance)
-    stays = {k for k, body in own.items() if body not in hung}
     pins = evidence.pins - own.keys()
-    told = [
-        {b: what for b, what in mine.items() if b in ({own[k]} | hung if k in stays else open_ones) and k not in pins}
-        for k, mine in enumerate(votes)
-    ]
+
+    def may_be(k: int) -> Collection[str]:
+        """Which bodies a piece may be of now: what is one of them may be another that nothing plays."""
+        if k in pins:
+            return ()
+        if k not in own:
+            return open_ones
+        return open_ones | limbs.keys() if own[k] in hung else {own[k]} | hung
+
+    told = [{b: what for b, what in mine.items() if b in may_be(k)} for k, mine in enumerate(votes)]
     everything = replace(evidence, leading=tuple(range(len(pieces))))
     field = _field(everything, told, best.template)
-    field.unary[sorted(k for k in stays if own[k]), none] = NEVER
+    field.unary[sorted(k for k, body in own.items() if body and body not in hung), none] = NEVER
     labels, _ = labelled(field, _labels_in(field, best, everything.leading), hot=WARM_UP, sweeps=WARM)
     lead, _ = leads(field, labels)
     names = [bodies[n] if n < none else "" for n in labels.tolist()]
-    chosen = {k for k, body in enumerate(names) if k in own or (body in hung and lead[k] >= CLEAR_LEAD)}
+    chosen = {k for k, body in enumerate(names) if k in own or (body in limbs and lead[k] >= CLEAR_LEAD)}
     wider = replace(evidence, leading=tuple(sorted(chosen)))
     field = _field(wider, votes, best.template)
     return replace(best, field=field, labels=labels[list(wider.leading)], votes=votes, leading=wider.leading), wider

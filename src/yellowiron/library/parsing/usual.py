@@ -10,7 +10,16 @@ from typing import Any
 
 from yellowiron.library.notation.validated_json import Document, near
 from yellowiron.model.errors import TemplateError
-from yellowiron.model.template import ActuatorTemplate, AlongLimb, Balance, Role, Usual, UsualHinge, Wanted, without_side
+from yellowiron.model.template import (
+    ActuatorTemplate,
+    AlongLimb,
+    Balance,
+    Role,
+    Usual,
+    UsualHinge,
+    Wanted,
+    without_side,
+)
 
 _ROUNDED = 0.01
 """The shares of a whole machine are rounded one by one."""
