@@ -4,7 +4,8 @@
 
 From the repository's root. For every body: the box that the middle 90 % of its surface takes (forward, left, up, in
 machine sizes, as `alignment.fusion.stance` finds the frame, its front where it is), over all machines; its length and
-its share of the surface (medians and the spread of their logarithms).
+its share of the surface (medians and the spread of their logarithms). For what hangs on a limb (`LIMBS`), the same box
+in the limb's own frame, in its lengths (`along`, as `alignment.fusion.limbs` finds it).
 """
 
 from __future__ import annotations
