@@ -130,4 +130,7 @@ def test_estimated_hinges_are_parallel_to_those_that_were_found() -> None:
     assert np.allclose(as_found(way, [-up, up]).vector, up)
     assert as_found(way, [-up, up]).angle < way.angle
     assert as_found(way, []) is way
+    assert as_found(way, [up]) is way, "one alone may lean itself"
+    apart = np.array([0.0, math.sin(lean), math.cos(lean)])
+    assert as_found(way, [up, apart]) is way, "they do not agree"
     assert as_found(way, [np.array([0.0, 1.0, 0.0])]) is way, "a hinge of another plane says nothing of this one"
