@@ -9,6 +9,7 @@ from typing import Any, Literal
 from yellowiron.model.geometry import Color
 from yellowiron.model.machine_tests import SPARSE, MachineTest, PayloadTemplate
 from yellowiron.model.sensor import SensorTemplate
+from yellowiron.model.usual import Usual
 
 JointType = Literal["fixed", "distance", "spherical", "revolute", "prismatic"]
 DriveType = Literal["linear", "angular"]
@@ -269,30 +270,6 @@ class Variant:
     default: str
     decided_by: Literal["geometry", "user"] = "user"
     needs: Mapping[str, Choices] = field(default_factory=dict)
-
-
-@dataclass(frozen=True)
-class AlongLimb:
-    """Where a body of a linkage usually is on the `limb` that it hangs on: the box of its surface (`low`, `high`: along
-    the limb from its middle to the end that carries `toward`, left, and across both), in lengths of the limb."""
-
-    limb: str
-    toward: str
-    low: tuple[float, float, float]
-    high: tuple[float, float, float]
-
-
-@dataclass(frozen=True)
-class Usual:
-    """Where a body usually is, and how large: the box of its surface (`low`, `high`: forward, left, up of the middle of
-    what the machine stands on), its `length`, both in machine sizes; `area`: its share of the machine's surface;
-    `along`: where it is on its limb, however that is turned."""
-
-    low: tuple[float, float, float]
-    high: tuple[float, float, float]
-    length: float
-    area: float
-    along: AlongLimb | None = None
 
 
 @dataclass(frozen=True)

@@ -15,7 +15,8 @@ from yellowiron.alignment.fusion.pieces import Piece
 from yellowiron.alignment.fusion.stance import Stance
 from yellowiron.alignment.fusion.votes import FARTHEST, MOST, NINETY, Features, Votes
 from yellowiron.model.geometry import Floats
-from yellowiron.model.template import AlongLimb, Template
+from yellowiron.model.template import Template
+from yellowiron.model.usual import AlongLimb
 from yellowiron.support.vectors import unit
 
 OFF = np.array([0.06, 0.04, 0.06])

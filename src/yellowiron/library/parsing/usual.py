@@ -10,16 +10,8 @@ from typing import Any
 
 from yellowiron.library.notation.validated_json import Document, near
 from yellowiron.model.errors import TemplateError
-from yellowiron.model.template import (
-    ActuatorTemplate,
-    AlongLimb,
-    Balance,
-    Role,
-    Usual,
-    UsualHinge,
-    Wanted,
-    without_side,
-)
+from yellowiron.model.template import ActuatorTemplate, Balance, Role, UsualHinge, Wanted, without_side
+from yellowiron.model.usual import AlongLimb, Usual
 
 _ROUNDED = 0.01
 """The shares of a whole machine are rounded one by one."""
