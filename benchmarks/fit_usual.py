@@ -4,7 +4,8 @@
 
 From the repository's root. For every body: the box that the middle 90 % of its surface takes (forward, left, up, in
 machine sizes, as `alignment.fusion.stance` finds the frame, its front where it is), over all machines; its length and
-its share of the surface (medians and the spread of their logarithms).
+its share of the surface (medians and the spread of their logarithms). For what hangs on a limb (`LIMBS`), the same box
+in the limb's own frame, in its lengths (`along`, as `alignment.fusion.limbs` finds it).
 """
 
 from __future__ import annotations
@@ -23,6 +24,7 @@ from kit.machines.defects import drawn  # noqa: E402
 from kit.machines.synthetic import disguise  # noqa: E402
 from yellowiron.alignment.features.solids import size_of, solids_of  # noqa: E402
 from yellowiron.alignment.features.wheels import rolling_of  # noqa: E402
+from yellowiron.alignment.fusion.limbs import limb_of  # noqa: E402
 from yellowiron.alignment.fusion.stance import on_wheels, stance_of, surface_points  # noqa: E402
 from yellowiron.library import load_template  # noqa: E402
 from yellowiron.model.template import Template  # noqa: E402
@@ -35,6 +37,14 @@ TYPES = {
     "wheeled_excavator": ("wheeled_excavator",), "mobile_crane": ("crane",), "grader": ("grader",),
 }  # fmt: skip
 """Type → kinds of machines that we draw of it; a body is measured on the first kind that has it."""
+LIMBS = {
+    "excavator": {
+        ("arm", "bucket"): (
+            "bucket_cylinder_barrel", "bucket_piston_rod", "tipping_link", "bucket_link", "arm_piston_rod",
+        ),
+    },
+}  # fmt: skip
+"""Type → limb, with what its end carries → the bodies of linkages whose places on it are measured."""
 KEPT = 0.05
 """This share of a body's surface is left out at either end of its box."""
 
@@ -73,12 +83,19 @@ def main() -> None:
         if given.only not in (None, name):
             continue
         bodies: dict[str, list] = {}
+        on_limbs: dict[str, tuple[str, str, list]] = {}
         template = load_template(name)
         for kind in kinds:
             own: dict[str, list] = {}
             for seed in range(given.first, given.first + given.count):
-                for body, what in seen(kind, seed, template).items():
+                there = seen(kind, seed, template)
+                for body, what in there.items():
                     own.setdefault(body, []).append(what)
+                for (limb, toward), hanging in LIMBS.get(name, {}).items():
+                    if kind == kinds[0] and {limb, toward} <= there.keys():
+                        lies = limb_of(there[limb][0], there[toward][0])
+                        for body in there.keys() & {*hanging}:
+                            on_limbs.setdefault(body, (limb, toward, []))[2].append(lies.place(there[body][0]))
             bodies = own | bodies
         table = {}
         known = {r.name for r in template.roles if r.rigid and not r.many}
@@ -90,6 +107,12 @@ def main() -> None:
                 "low": low.round(3).tolist(), "high": high.round(3).tolist(),
                 "length": round(float(np.median(length)), 3), "area": round(float(np.median(area)), 5),
             }  # fmt: skip
+            if body in on_limbs:
+                limb, toward, places = on_limbs[body]
+                low, high = np.quantile(np.concatenate(places), [KEPT, 1 - KEPT], axis=0)
+                table[body]["along"] = {
+                    "limb": limb, "toward": toward, "low": low.round(3).tolist(), "high": high.round(3).tolist(),
+                }  # fmt: skip
         rows = ",\n".join(f' "{body}": {json.dumps(row)}' for body, row in table.items())
         path = ROOT / "src/yellowiron/library/data" / name / "usual.json"
         path.write_text("{\n" + rows + "\n}\n", encoding="utf-8")

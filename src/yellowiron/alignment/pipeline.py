@@ -298,6 +298,7 @@ def _with_all_axes(
         size=observation.size,
         frame=sure,
         assembly=assembly,
+        ways={j: way for j, (_, way) in searched.items() if j in known},
     )
     # A pin that would leave a cylinder without a lever is another hinge's.
     idle = without_lever(pinned, estimates, template, observation.size)

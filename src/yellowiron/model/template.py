@@ -9,6 +9,7 @@ from typing import Any, Literal
 from yellowiron.model.geometry import Color
 from yellowiron.model.machine_tests import SPARSE, MachineTest, PayloadTemplate
 from yellowiron.model.sensor import SensorTemplate
+from yellowiron.model.usual import Usual
 
 JointType = Literal["fixed", "distance", "spherical", "revolute", "prismatic"]
 DriveType = Literal["linear", "angular"]
@@ -269,17 +270,6 @@ class Variant:
     default: str
     decided_by: Literal["geometry", "user"] = "user"
     needs: Mapping[str, Choices] = field(default_factory=dict)
-
-
-@dataclass(frozen=True)
-class Usual:
-    """Where a body usually is, and how large: the box of its surface (`low`, `high`: forward, left, up of the middle of
-    what the machine stands on), its `length`, both in machine sizes; `area`: its share of the machine's surface."""
-
-    low: tuple[float, float, float]
-    high: tuple[float, float, float]
-    length: float
-    area: float
 
 
 @dataclass(frozen=True)

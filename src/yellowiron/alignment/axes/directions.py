@@ -29,6 +29,10 @@ LEAST_WHEEL = 0.004
 """The least radius of what is round in a wheel, in machine sizes."""
 NEAR_LEFT = math.cos(math.radians(5.0))
 """Cosine up to which pivots tell the machine's left better than its symmetry does."""
+_PARALLEL = math.cos(math.radians(0.3))
+"""Cosine up to which two hinges and more that pins or bores show are parallel."""
+_EXACT = math.radians(0.1)
+"""How far a hinge that pins or bores show is off the others of its linkage."""
 ACROSS = 0.2
 """Cosine up to which a hinge is across a cylinder of its linkage (78°)."""
 
@@ -93,6 +97,20 @@ def direction_of(
             return _mean(ways[kept], weights[kept], ways[best], expected)
     near = None if steering else wheels_beside(names, template, bodies, frame)
     return _without_faces([bodies[n] for n in names if n in bodies], slides, expected if near is None else near)
+
+
+def as_found(way: Direction, found: Sequence[Floats]) -> Direction:
+    """The direction of a linkage's hinges as those of them have it that pins and bores showed (`found`, unit vectors):
+    what is round in its bodies only says about where it is, and a linkage whose hinges are not parallel is locked.
+    Two of them at least, which agree."""
+    near = [v if float(v @ way.vector) > 0.0 else -v for v in found if abs(float(v @ way.vector)) > TOGETHER]
+    if len(near) < 2:
+        return way
+    mean = unit(np.sum(near, axis=0))
+    # Pins that lean by themselves tell nothing of the others.
+    if min(float(v @ mean) for v in near) < _PARALLEL:
+        return way
+    return Direction(mean, min(way.angle, _EXACT), "the linkage's hinges that were found")
 
 
 def wheels_beside(names: Sequence[str], template: Template, bodies: Mapping[str, Body], frame: Frame) -> Floats | None:

@@ -13,6 +13,7 @@ from yellowiron.alignment.axes.bodies import Body, bodies_of
 from yellowiron.alignment.axes.cylinder_lines import cylinder_line, trunnion_of
 from yellowiron.alignment.axes.directions import (
     Direction,
+    as_found,
     completed,
     direction_of,
     is_upright,
@@ -55,13 +56,14 @@ def estimate_axes(
     frame: Frame | None = None,
     size: float | None = None,
     pivots: Mapping[str, Floats] | None = None,
+    ways: Mapping[str, Floats] | None = None,
 ) -> dict[str, AxisEstimate]:
     """Joint → its axis, for every hinge and slide of a template (with its variants decided) between two bodies that
     have solids.
 
     `labels`: body → indices of its solids. `frame`: the machine's directions as far as they are known. `size`: the
     machine's, metres (its solids' if None). `pivots`: joint → (n, 3) places of the scene's tree that it
-    may turn about (`pivots_of`), CAD frame. Nothing
+    may turn about (`pivots_of`), CAD frame; `ways`: hinge → its direction, of those that pins or bores showed. Nothing
     raises for want of evidence: an axis that nothing shows is a guess, with an uncertainty that says so.
     """
     if not solids:
@@ -79,6 +81,7 @@ def estimate_axes(
     planar: list[tuple[tuple[JointTemplate, ...], Direction, dict[str, list[Candidate]]]] = []
     for linkage in (joints for joints, flat in groups if flat):
         way = direction_of(linkage, template, bodies, lines, frame)
+        way = as_found(way, [ways[j.name] for j in linkage if ways is not None and j.name in ways])
         lines |= _lines_with_twins({j.name: lines[j.name] for j in linkage if j.name in lines}, way.vector)
         turning = [j for j in linkage if j.type == "revolute"]
         drawn = {j.name: _hinge(j, template, bodies, way, linkage, lines, Clues(), loose) for j in turning}

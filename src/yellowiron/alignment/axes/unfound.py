@@ -31,10 +31,11 @@ def unfound_axes(
     size: float,
     frame: Floats | None = None,
     assembly: Assembly | None = None,
+    ways: Mapping[str, Vector] | None = None,
 ) -> dict[str, AxisEstimate]:
     """Joint → its axis, for the template's hinges and slides that are not `found` though parts move with both of their
     bodies. `frame`: the machine's (4, 4), CAD → machine, if it is known; `assembly`: the model,
-    whose scene's tree tells pivots."""
+    whose scene's tree tells pivots; `ways`: hinge → the direction that pins or bores showed."""
     body_of = {p.part: p.body for p in parts if p.body is not None}
     labels: dict[str, list[int]] = {}
     for solid in solids:
@@ -48,9 +49,10 @@ def unfound_axes(
     }  # fmt: skip
     if not wanted:
         return {}
-    ways = Frame(*(np.asarray(row) for row in frame[:3, :3])) if frame is not None else Frame()
+    machine = Frame(*(np.asarray(row) for row in frame[:3, :3])) if frame is not None else Frame()
     pivots = pivots_of(assembly, body_of, template) if assembly is not None and assembly.nodes else None
-    estimates = estimate_axes(solids, labels, template, frame=ways, size=size, pivots=pivots)
+    shown = {name: np.asarray(way) for name, way in (ways or {}).items()}
+    estimates = estimate_axes(solids, labels, template, frame=machine, size=size, pivots=pivots, ways=shown)
     return {name: e for name, e in estimates.items() if name in wanted}
 
 

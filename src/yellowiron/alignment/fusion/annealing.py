@@ -25,6 +25,8 @@ MOVES = 12
 """So many times two bodies change places, and two mirror images are tried as another body, after every sweep; of a few
 pieces, half as many times as there are pieces."""
 CHAINS = 12
+WARM, WARM_UP = 14, 16.0
+"""So many sweeps, from this temperature, tell how good a variant is beside another, from whose labels they begin."""
 SEED = 1
 SAME, JOINED, ALIKE, FARTHER, NEAR, EXACT = range(6)
 """What a piece's bonds count: as in `Field.weights`, for its body being the farther one, nearly held, and exactly held

@@ -17,6 +17,9 @@ from yellowiron.alignment.fusion.votes import Votes
 from yellowiron.alignment.fusion.weights import weights
 from yellowiron.model.template import Template
 
+CLEAR_LEAD = 12.0
+"""A small piece whose body is better than any other by less than this goes with what it touches."""
+
 
 @dataclass(frozen=True, eq=False)
 class Best:

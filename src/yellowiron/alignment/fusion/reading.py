@@ -14,12 +14,13 @@ from yellowiron.alignment.assignment.search import machine_of
 from yellowiron.alignment.assignment.sides import twin_role
 from yellowiron.alignment.facing import UNTOLD, Facing
 from yellowiron.alignment.features.solids import Solid
-from yellowiron.alignment.fusion.annealing import CHAINS, HOT, SWEEPS, against, labelled, leads
-from yellowiron.alignment.fusion.best import Best, field_of_leading, labels_in, lacking
+from yellowiron.alignment.fusion.annealing import CHAINS, HOT, SWEEPS, WARM, WARM_UP, against, labelled, leads
+from yellowiron.alignment.fusion.best import CLEAR_LEAD, Best, field_of_leading, labels_in, lacking
 from yellowiron.alignment.fusion.bonds import Bond, out_of_line
 from yellowiron.alignment.fusion.evidence import Evidence, across, evidence_of, ways_of
 from yellowiron.alignment.fusion.interposed import interposed
 from yellowiron.alignment.fusion.judge import field_of, score_of, weighed
+from yellowiron.alignment.fusion.limbs import on_limbs
 from yellowiron.alignment.fusion.pieces import Piece
 from yellowiron.alignment.fusion.played import beside_lost_arms, missing_bodies
 from yellowiron.alignment.fusion.stance import Stance
@@ -41,8 +42,6 @@ from yellowiron.model.template import JointTemplate, Template
 
 GLANCE, FEW, LIKELY = SWEEPS // 2, 4, 4
 """So many sweeps of few chains tell which variants are the likeliest, and so many of these are judged with all."""
-WARM, WARM_UP = 14, 16.0
-"""So many sweeps, from this temperature, tell how good a variant is beside another, from whose labels they begin."""
 MANY = 32
 """So many chains settle the variant that was chosen."""
 NEARLY = 2
@@ -59,8 +58,6 @@ AS_GOOD = 12.0
 """A variant by which a machine is judged less well by no more than this could as well be the one."""
 BY_OTHERS = 1.0
 """… and takes over another one's labels where these are better by more than this."""
-CLEAR_LEAD = 12.0
-"""A small piece whose body is better than any other by less than this goes with what it touches."""
 
 
 @dataclass(frozen=True, eq=False)
@@ -151,6 +148,7 @@ def fused(
         evidence = wider
     unsaid = _unsaid(best, evidence)
     best, doubtful = interposed(best, machines, evidence)
+    best, evidence = on_limbs(best, evidence)
     tried_so = [(b.choices, b.score) for b in likely]
     as_good = open_choices(best.choices, tried_so, max(b.score for b in likely) - AS_GOOD)
     contacts = max(_unsaid(_of_contacts(answer, way), way) for way in ways)

@@ -13,7 +13,8 @@ from yellowiron.alignment.assignment.answer import Answer, held_share
 from yellowiron.alignment.assignment.sides import twin_role
 from yellowiron.alignment.fusion.pieces import Piece
 from yellowiron.alignment.fusion.stance import Stance
-from yellowiron.model.template import Template, Usual
+from yellowiron.model.template import Template
+from yellowiron.model.usual import Usual
 from yellowiron.support.caching.remembered import remembered
 from yellowiron.support.vectors import triple
 

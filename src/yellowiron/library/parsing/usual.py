@@ -6,10 +6,12 @@ from __future__ import annotations
 
 import math
 from collections.abc import Mapping
+from typing import Any
 
 from yellowiron.library.notation.validated_json import Document, near
 from yellowiron.model.errors import TemplateError
-from yellowiron.model.template import ActuatorTemplate, Balance, Role, Usual, UsualHinge, Wanted, without_side
+from yellowiron.model.template import ActuatorTemplate, Balance, Role, UsualHinge, Wanted, without_side
+from yellowiron.model.usual import AlongLimb, Usual
 
 _ROUNDED = 0.01
 """The shares of a whole machine are rounded one by one."""
@@ -26,8 +28,21 @@ def read_usual(document: Document, roles: tuple[Role, ...]) -> Mapping[str, Usua
                 where=document.at(name),
                 hint=near(name, known) or "Write the names of bodies, as in hierarchy.json.",
             )
-        found[name] = Usual(tuple(entry["low"]), tuple(entry["high"]), entry["length"], entry["area"])
+        along = _along(entry["along"], name, document, known) if "along" in entry else None
+        found[name] = Usual(tuple(entry["low"]), tuple(entry["high"]), entry["length"], entry["area"], along)
     return found
+
+
+def _along(entry: Mapping[str, Any], name: str, document: Document, known: set[str]) -> AlongLimb:
+    """Where a body is on its limb. `TemplateError` for a limb, or what it carries, that is no body."""
+    for key in ("limb", "toward"):
+        if entry[key] not in known:
+            raise TemplateError(
+                f"'{entry[key]}' is no body of the template",
+                where=document.at(name, "along", key),
+                hint=near(entry[key], known) or "Write the names of bodies, as in hierarchy.json.",
+            )
+    return AlongLimb(entry["limb"], entry["toward"], tuple(entry["low"]), tuple(entry["high"]))
 
 
 def read_hinges(document: Document, actuators: tuple[ActuatorTemplate, ...]) -> Mapping[str, UsualHinge]:
