@@ -9,11 +9,11 @@ import numpy as np
 import pytest
 
 from yellowiron.alignment.axes.directions import Direction, as_found
+from yellowiron.alignment.fusion.best import Best
 from yellowiron.alignment.fusion.evidence import Evidence
 from yellowiron.alignment.fusion.judge import field_of
-from yellowiron.alignment.fusion.limbs import along_limbs, limb_of, limbs_in
+from yellowiron.alignment.fusion.limbs import along_limbs, limb_of, limbs_in, on_limbs
 from yellowiron.alignment.fusion.pieces import Piece
-from yellowiron.alignment.fusion.reading import _along_limbs, _Best
 from yellowiron.alignment.fusion.stance import Stance
 from yellowiron.alignment.fusion.weights import weights
 from yellowiron.library import load_template
@@ -93,11 +93,11 @@ def test_small_pieces_are_links_at_the_tip_of_an_arm_and_not_elsewhere(excavator
     leading = (ARM, BUCKET, 4)
     field = field_of([votes[k] for k in leading], [], excavator, weights())
     labels = np.array([field.bodies.index(name) for name in names])
-    best = _Best(1.0, {}, excavator, field, labels, votes, leading)
+    best = Best(1.0, {}, excavator, field, labels, votes, leading)
     evidence = Evidence(
         tuple(pieces), leading, (), 0.0, frozenset(), STANCE, (), None, {}, frozenset(), 10.0  # type: ignore[arg-type]
     )  # fmt: skip
-    found, wider = _along_limbs(best, evidence)
+    found, wider = on_limbs(best, evidence)
     bodies = dict(zip(wider.leading, (found.field.bodies[n] for n in found.labels), strict=True))
     assert [bodies[k] for k in leading] == [*names]
     assert bodies.get(2) == "tipping_link"
@@ -108,11 +108,11 @@ def test_small_pieces_are_links_at_the_tip_of_an_arm_and_not_elsewhere(excavator
 def test_without_a_limb_nothing_changes(excavator: Template) -> None:
     pieces = machine(20.0)
     field = field_of([{"boom": {}}], [], excavator, weights())
-    best = _Best(1.0, {}, excavator, field, np.array([field.bodies.index("boom")]), [{"boom": {}}] * 4, (ARM,))
+    best = Best(1.0, {}, excavator, field, np.array([field.bodies.index("boom")]), [{"boom": {}}] * 4, (ARM,))
     evidence = Evidence(
         tuple(pieces), (ARM,), (), 0.0, frozenset(), STANCE, (), None, {}, frozenset(), 10.0  # type: ignore[arg-type]
     )  # fmt: skip
-    assert _along_limbs(best, evidence) == (best, evidence)
+    assert on_limbs(best, evidence) == (best, evidence)
 
 
 def test_a_limb_that_is_no_body_is_told(excavator: Template) -> None:
