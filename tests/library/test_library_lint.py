@@ -30,6 +30,7 @@ def test_wheel_loader_moves_as_expected_in_every_variant(loader: Template) -> No
         for lift in ("twin", "single")
         for tilt in (("z_bar", "single"), ("direct", "single"), ("parallel", "single"), ("parallel", "twin"))
         for wheels in ("all", "rear", "none")
+        if lift == "twin" or tilt[0] != "parallel"
     ]
     for mobility in report.mobility:
         assert mobility.computed == mobility.expected == mobility.planar == 8

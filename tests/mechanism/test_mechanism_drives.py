@@ -185,3 +185,17 @@ def built_diagonal() -> float:
     assembly, _ = machine()
     points = np.concatenate([assembly.points_of(p) for p in assembly.parts])
     return float(np.linalg.norm(np.ptp(points, axis=0)))
+
+
+def test_default_flow_takes_a_stroke_no_longer_than_the_type_says() -> None:
+    """A public excavator in a unit that made it 1800 t heavy took three minutes for a stroke: it seemed dead."""
+    plan = template()
+    defaults = {**plan.actuators[0].defaults, "flow": 1e-9}
+    slow = replace(plan.actuators[0], defaults=defaults, specifications={})
+    bounded = replace(slow, defaults={**defaults, "extend_time": 6.0})
+    built, unbounded = (build(replace(plan, actuators=(a,))).joint("slide") for a in (bounded, slow))
+    assert built.drive is not None and unbounded.drive is not None
+    assert built.lower is not None and built.upper is not None
+    assert built.drive.max_velocity == pytest.approx((built.upper - built.lower) / 6.0)
+    assert built.drive.reverse_velocity in (None, pytest.approx(built.drive.max_velocity))
+    assert unbounded.drive.max_velocity < 1e-3 * built.drive.max_velocity

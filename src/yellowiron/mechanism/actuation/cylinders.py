@@ -405,10 +405,9 @@ def _speeds(one: _Sizes, group: list[_Sizes], stroke: float, work: _Work) -> tup
             return assumed, assumed
         flow = work.assumed("flow") or Known(0.0, UNKNOWN)
         most = stroke / FASTEST if stroke > 0.0 else math.inf
-        return (
-            Known(min(flow.value / out_area, most), flow.source),
-            Known(min(flow.value / in_area, most), flow.source),
-        )
+        longest = work.actuator.defaults.get("extend_time", 0.0)
+        least = stroke / longest if longest > 0.0 else 0.0
+        return _by_default(flow, out_area, least, most), _by_default(flow, in_area, least, most)
     # One way known: the same flow fills the other side.
     if extend is None and retract is not None:
         extend = Known(retract.value * in_area / out_area, f"{retract.source}, by the ratio of areas")
@@ -416,6 +415,14 @@ def _speeds(one: _Sizes, group: list[_Sizes], stroke: float, work: _Work) -> tup
         retract = Known(extend.value * out_area / in_area, f"{extend.source}, by the ratio of areas")
     assert extend is not None and retract is not None
     return extend, retract
+
+
+def _by_default(flow: Known, area: float, least: float, most: float) -> Known:
+    """The speed (m/s) of the default flow over an area (m²), within bounds: a far larger machine has larger pumps."""
+    speed = flow.value / area
+    if speed < least:
+        return Known(least, f"{flow.source}, no slower than such machines are")
+    return Known(min(speed, most), flow.source)
 
 
 def _speed(time: str, stroke: float, flow: Known | None, area: float, work: _Work) -> Known | None:
