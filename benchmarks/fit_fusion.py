@@ -46,10 +46,15 @@ from yellowiron.alignment.fusion import reading  # noqa: E402
 from yellowiron.alignment.fusion.annealing import labelled  # noqa: E402
 from yellowiron.alignment.fusion.bonds import out_of_line  # noqa: E402
 from yellowiron.alignment.fusion.evidence import Evidence, evidence_of, ways_of  # noqa: E402
-from yellowiron.alignment.fusion.judge import Field, field_of, score_of, weighed  # noqa: E402
+from yellowiron.alignment.fusion.judge import (  # noqa: E402
+    Field,
+    field_of,
+    score_of,
+    weighed,
+    weights,
+)
 from yellowiron.alignment.fusion.pieces import largeness  # noqa: E402
 from yellowiron.alignment.fusion.played import drawn_bodies, lacks  # noqa: E402
-from yellowiron.alignment.fusion.weights import weights  # noqa: E402
 from yellowiron.library import load_template  # noqa: E402
 from yellowiron.model.errors import YellowironError  # noqa: E402
 from yellowiron.model.rows import as_drawn  # noqa: E402

@@ -23,13 +23,12 @@ from yellowiron.alignment.fusion import reading
 from yellowiron.alignment.fusion.annealing import Annealing, against, labelled, leads
 from yellowiron.alignment.fusion.best import Best
 from yellowiron.alignment.fusion.bonds import ENOUGH, Bond, _kin, _together, _welded, out_of_line
-from yellowiron.alignment.fusion.judge import Field, field_of, score_of
+from yellowiron.alignment.fusion.judge import Field, field_of, score_of, weights
 from yellowiron.alignment.fusion.pieces import Piece, largeness, leading
 from yellowiron.alignment.fusion.played import beside_lost_arms
 from yellowiron.alignment.fusion.reading import CONTRARY, _by_any_labels, _one_name
 from yellowiron.alignment.fusion.stance import Stance, stance_of
 from yellowiron.alignment.fusion.votes import LENT, borrowed
-from yellowiron.alignment.fusion.weights import weights
 from yellowiron.alignment.pipeline import _Judged
 from yellowiron.alignment.structure.observation import observe
 from yellowiron.library import load_template

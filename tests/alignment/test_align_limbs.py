@@ -11,11 +11,10 @@ import pytest
 from yellowiron.alignment.axes.directions import Direction, as_found
 from yellowiron.alignment.fusion.best import Best
 from yellowiron.alignment.fusion.evidence import Evidence
-from yellowiron.alignment.fusion.judge import field_of
+from yellowiron.alignment.fusion.judge import field_of, weights
 from yellowiron.alignment.fusion.limbs import along_limbs, limb_of, limbs_in, on_limbs
 from yellowiron.alignment.fusion.pieces import Piece
 from yellowiron.alignment.fusion.stance import Stance
-from yellowiron.alignment.fusion.weights import weights
 from yellowiron.library import load_template
 from yellowiron.library.notation.validated_json import Document
 from yellowiron.library.parsing.usual import read_usual

@@ -13,10 +13,9 @@ from yellowiron.alignment.features.wheels import Wheel, wheels_of
 from yellowiron.alignment.fusion.annealing import labelled
 from yellowiron.alignment.fusion.bonds import Bond
 from yellowiron.alignment.fusion.evidence import Evidence
-from yellowiron.alignment.fusion.judge import field_of, score_of
+from yellowiron.alignment.fusion.judge import field_of, score_of, weights
 from yellowiron.alignment.fusion.stance import Stance, on_wheels, stance_of
 from yellowiron.alignment.fusion.votes import odd_wheels
-from yellowiron.alignment.fusion.weights import weights
 from yellowiron.cad.mesh.assembly import Occurrence, assemble
 from yellowiron.library import load_template
 from yellowiron.model.geometry import Mesh

@@ -12,11 +12,11 @@ import pytest
 from yellowiron.alignment.fusion import evidence as known
 from yellowiron.alignment.fusion import trust
 from yellowiron.alignment.fusion.bonds import Bond
+from yellowiron.alignment.fusion.judge import weights
 from yellowiron.alignment.fusion.played import lacks
 from yellowiron.alignment.fusion.reading import _solution
 from yellowiron.alignment.fusion.stance import Stance
 from yellowiron.alignment.fusion.trust import trust_in_names
-from yellowiron.alignment.fusion.weights import weights
 from yellowiron.alignment.structure.clusters import Cluster, Hinge, Structure
 from yellowiron.library import load_template
 from yellowiron.model.template import Template, choose

@@ -10,11 +10,10 @@ import numpy as np
 
 from yellowiron.alignment.fusion.bonds import out_of_line
 from yellowiron.alignment.fusion.evidence import Evidence
-from yellowiron.alignment.fusion.judge import Field, field_of, score_of, weighed
+from yellowiron.alignment.fusion.judge import Field, field_of, score_of, weighed, weights
 from yellowiron.alignment.fusion.pieces import largeness
 from yellowiron.alignment.fusion.played import drawn_bodies, lacks
 from yellowiron.alignment.fusion.votes import Votes
-from yellowiron.alignment.fusion.weights import weights
 from yellowiron.model.template import Template
 
 CLEAR_LEAD = 12.0

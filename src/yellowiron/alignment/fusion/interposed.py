@@ -18,11 +18,10 @@ from yellowiron.alignment.fusion.annealing import labelled
 from yellowiron.alignment.fusion.best import Best, drawn, field_of_leading, labels_in, whole_score
 from yellowiron.alignment.fusion.bonds import Bond
 from yellowiron.alignment.fusion.evidence import Evidence
-from yellowiron.alignment.fusion.judge import KINDS, NEVER, Field, Ints
+from yellowiron.alignment.fusion.judge import KINDS, NEVER, Field, Ints, weights
 from yellowiron.alignment.fusion.pieces import Piece
 from yellowiron.alignment.fusion.played import missing_bodies
 from yellowiron.alignment.fusion.votes import BARS, Features, Votes
-from yellowiron.alignment.fusion.weights import weights
 from yellowiron.model.template import Template
 
 BETTER = 12.0

@@ -9,9 +9,13 @@ labelling `annealing` looks for.
 
 from __future__ import annotations
 
+import functools
+import json
 from collections.abc import Collection, Mapping, Sequence
 from dataclasses import dataclass
 from functools import cached_property
+from importlib import resources
+from types import MappingProxyType
 from typing import Any
 
 import networkx
@@ -205,6 +209,14 @@ def _kind(joint: JointTemplate, linkage_of: Mapping[str, int], tools: Collection
     if joint.name not in linkage_of:
         return KINDS.index("hinge")
     return KINDS.index("level" if linkage_of[joint.name] in tools else "turned")
+
+
+@functools.cache
+def weights() -> Mapping[str, float]:
+    """Evidence → what it counts, in points: data, fitted to machines whose truth is known (`data/fusion.json`, made by
+    `benchmarks/fit_fusion.py`)."""
+    text = resources.files("yellowiron.alignment").joinpath("data/fusion.json").read_text(encoding="utf-8")
+    return MappingProxyType(dict(json.loads(text)["weights"]))
 
 
 def weighed(features: Features, weights: Features) -> float:

@@ -19,7 +19,7 @@ from yellowiron.alignment.fusion.best import CLEAR_LEAD, Best, field_of_leading,
 from yellowiron.alignment.fusion.bonds import Bond, out_of_line
 from yellowiron.alignment.fusion.evidence import Evidence, across, evidence_of, ways_of
 from yellowiron.alignment.fusion.interposed import interposed
-from yellowiron.alignment.fusion.judge import field_of, score_of, weighed
+from yellowiron.alignment.fusion.judge import field_of, score_of, weighed, weights
 from yellowiron.alignment.fusion.limbs import on_limbs
 from yellowiron.alignment.fusion.pieces import Piece
 from yellowiron.alignment.fusion.played import beside_lost_arms, missing_bodies
@@ -33,7 +33,6 @@ from yellowiron.alignment.fusion.votes import (
     joints_apart,
     named,
 )
-from yellowiron.alignment.fusion.weights import weights
 from yellowiron.alignment.structure.clusters import Hinge, Structure, labelled_structure
 from yellowiron.alignment.structure.observation import Observation, slewing_joints
 from yellowiron.model.geometry import Floats
