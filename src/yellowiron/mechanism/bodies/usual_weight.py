@@ -14,13 +14,20 @@ _LEAST, _APART = 0.8, 1.3
 """Of its width, and, on wheels, of the longest one's length: wheels of one axle alone, or of one side of it, are no
 length to judge a machine by."""
 
+_PIECE = 0.15
+"""What is shorter than this share of the machine's diagonal is a piece of what it stands on: excavators whose booms are
+stretched out stand on 0.3 of it."""
+
 
 def usual_weight(placement: Placement, template: Template) -> Known | None:
     """The weight (kg) that machines of the template's type have for the length of what they stand on (`ground_length`),
-    by the `usual_weight` of the wanted value that is the machine's weight; None where either is not known."""
+    by the `usual_weight` of the wanted value that is the machine's weight; None where either is not known, or only a
+    piece of what it stands on."""
     entry = next((w for w in template.wanted if w.usual_weight is not None), None)
     length = ground_length(placement, template)
     if entry is None or entry.usual_weight is None or length is None:
+        return None
+    if length < _PIECE * placement.diagonal(range(len(placement.roles))):
         return None
     source = f"usual for {template.equipment_type.replace('_', ' ')}s that stand on {length:.2f} m"
     return Known(entry.usual_weight * length**3, source)
