@@ -37,7 +37,7 @@ def test_templates_list_and_show(capsys: pytest.CaptureFixture[str]) -> None:
     code, shown = _asked(capsys, "templates", "show", "wheel_loader")
     assert code == 0 and shown["equipment_type"] == "wheel_loader" and shown["root"] == "rear_frame"
     assert {"boom", "boom_pin"} <= {role["name"] for role in shown["roles"]}
-    assert shown["modules"]["bucket"] == {"module": "z_bar", "frame": "front_frame", "arm": "boom"}
+    assert shown["modules"]["boom"] == {"module": "hinge", "on": "front_frame", "body": "boom"}
     assert "rocker" in listed["modules"]["z_bar"]
 
 
