@@ -179,6 +179,17 @@ def test_a_flat_thing_is_no_track(drawn: Crawler, template: Template) -> None:
     assert not [b.name for b in found.bodies if "track_wheel" in b.name]
 
 
+def test_a_crumb_on_the_ground_is_no_track(drawn: Crawler, template: Template) -> None:
+    """Wheels of no mass stood for it, and MuJoCo refused the whole machine."""
+    face = np.array([[-1.0, 0.0, 0.0], [1.0, 0.0, 0.0], [1.0, 0.0, 1.0], [-1.0, 0.0, 1.0]])
+    crumb = 0.02 * face + np.array([0.0, 1.2, 0.0])
+    found = build(
+        _with_undercarriage(drawn, np.concatenate([crumb, 2.0 * face + [0.0, -1.2, 0.5]])), _sided(template), "belt"
+    )
+    assert {f.where for f in found.findings if f.code == "MEC070"} == {"track_wheel_l", "track_wheel_r"}
+    assert all(body.mass > 0.0 for body in found.bodies)
+
+
 def test_a_frame_drawn_in_one_with_its_tracks(drawn: Crawler, template: Template) -> None:
     """It collides between the tracks, and what is measured there is the frame's: no corner of the whole's hull is."""
     moved = {p.part: p.body for p in drawn.aligned(shoes=False).parts}

@@ -40,6 +40,8 @@ LOW = 0.35
 """… if they reach as low as this share of the track's height: a high drive's sprocket does not."""
 FLAT = 1e-6
 """Metres: what is no higher is no track."""
+LEAST_TRACK = 0.01
+"""A smaller share of the surface of what the machine stands on is no track: wheels without mass stop an engine."""
 LEFT_OVER = 0.02
 """The least share of its mass that the body a track moves with keeps."""
 _NARROWEST = 0.5
@@ -129,7 +131,10 @@ def _side(placement: Placement, template: Template, wheel: Role) -> tuple[tuple[
     middle = np.concatenate([center[:, 1] for center, _, _ in facets])
     area = np.concatenate([size for _, _, size in facets])
     on = (middle >= inner) & (middle <= outer)
-    return rows, kept, float(area[on].sum() / area.sum()), float(sign * np.abs([inner, outer]).min())
+    share = float(area[on].sum() / area.sum())
+    if share < LEAST_TRACK:
+        return (), points, 0.0, 0.0
+    return rows, kept, share, float(sign * np.abs([inner, outer]).min())
 
 
 def _stretch(points: Floats) -> tuple[Floats, Floats, tuple[float, float]]:
