@@ -95,22 +95,22 @@ class ParallelDrawer(Drawer):
         return self.eye_w if self.cylinders == 1 else 0.12 * self.s
 
     @property
-    def forks(self) -> list[tuple[float, float]]:
+    def tilt_forks(self) -> list[tuple[float, float]]:
         y = self.eyes[0][0] + self.tilt_w / 2 + self.gap + self.t / 2
         between = [] if self.cylinders == 1 else [(0.0, 2 * (self.eyes[0][0] - self.tilt_w / 2 - self.gap))]
         return [(y, self.t), *between, (-y, self.t)]
 
     @property
     def outside(self) -> float:
-        return self.forks[0][0] + self.t / 2
+        return self.tilt_forks[0][0] + self.t / 2
 
     @property
-    def y_ear(self) -> float:
+    def y_link_ear(self) -> float:
         return self.outside + self.gap + self.t / 2
 
     @property
     def y_link(self) -> float:
-        return self.y_ear + self.gap + self.t
+        return self.y_link_ear + self.gap + self.t
 
     # ---- pieces ----
     def boom(self) -> None:
@@ -122,7 +122,7 @@ class ParallelDrawer(Drawer):
             self.side_plate("arm plate", body, side * self.yb, outline, "ABD", thickness=t)
             for foot, name in ((self.M, "G"), (self.W, "T")):
                 outline = around((*foot, 1.3 * r), (*(G if name == "G" else T), 2 * self.pin_r))
-                self.side_plate("lug", body, side * self.y_ear, outline, name, [(*map(float, foot), r)])
+                self.side_plate("lug", body, side * self.y_link_ear, outline, name, [(*map(float, foot), r)])
         for foot in (self.M, self.W):
             pipe = tube("cross_tube", r, 0.8 * r, 2 * half)
             self.m.add("cross tube", body, body, pipe, place((foot[0], -half, foot[1]), Y))
@@ -130,8 +130,8 @@ class ParallelDrawer(Drawer):
     def rocker_and_link(self) -> None:
         r, out, w = 2 * self.pin_r, self.outside, self.tilt_w
         E, F, G, H, T, K, L, J = (self.P[k] for k in "EFGHTKLJ")
-        lug = self.y_ear + self.t / 2
-        for y, thickness in self.forks:
+        lug = self.y_link_ear + self.t / 2
+        for y, thickness in self.tilt_forks:
             self.side_plate(
                 "lever", "levelling_rocker", y, around((*F, r), (*G, 1.3 * r), (*H, r)), "FGH", thickness=thickness
             )
@@ -166,7 +166,7 @@ class ParallelDrawer(Drawer):
     def tilt(self) -> None:
         kept, self.eye_w = self.eye_w, self.tilt_w
         for y, tail in self.eyes:
-            F, K = self.world(self.at("F", y)), self.world(self.at("K", y))
+            F, K = self.as_steered(self.at("F", y)), self.as_steered(self.at("K", y))
             bore = (0.085 if not tail else 0.045) * self.s
             barrel, rod = f"bucket_cylinder_barrel{tail}", f"bucket_piston_rod{tail}"
             reach = (0.13 * self.s, 0.18 * self.s)

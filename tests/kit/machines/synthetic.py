@@ -641,7 +641,7 @@ class Drawer:
                     "C",
                 )
         # centre plates of the tilt cylinder (and of a single lift cylinder)
-        for y, thickness in self.forks:
+        for y, thickness in self.tilt_forks:
             circles = [(*E, 2 * self.pin_r)] + ([] if self.m.twin else [(*C, 2 * self.pin_r)])
             self.side_plate(
                 "tilt lug",
@@ -754,13 +754,13 @@ class Drawer:
         return self.eye_w / 2 + self.gap + self.t / 2
 
     @property
-    def forks(self) -> list[tuple[float, float]]:
+    def tilt_forks(self) -> list[tuple[float, float]]:
         """Where across the machine the plates of the tilt linkage stand that hold an eye between them; their
         thickness."""
         return [(side * self.y_rocker, self.t) for side in (1, -1)]
 
     @property
-    def y_ear(self) -> float:
+    def y_link_ear(self) -> float:
         """Where the bucket's ears of its link stand."""
         return self.eye_w / 2 + self.gap + self.t / 2 + (self.links - 1) * (self.t + self.gap)
 
@@ -834,7 +834,7 @@ class Drawer:
             wide = 1.5 * t + self.gap
             self.pin("bucket_pin", body, self.at("B", side * (self.yb + wide)), self.at("B", side * (self.yb - wide)))
         jl = np.linalg.inv(local) @ np.array([J[0], 0, J[1], 1])
-        beside = self.y_ear
+        beside = self.y_link_ear
         for d in (1, -1):
             outline = around((jl[0], jl[2], 2 * self.pin_r), (back + e, 0.2 * s, 0), (back + e, 0.6 * s, 0))
             put(
@@ -845,18 +845,18 @@ class Drawer:
         half = beside + t / 2 + (self.links - 1) * (t + self.gap)
         self.pin("bucket_link_bucket_pin", body, self.at("J", -half), self.at("J", half))
 
-    def world(self, p: Array) -> Array:
+    def as_steered(self, p: Array) -> Array:
         """A point of the front half where the steering has turned it."""
         return np.asarray((self.front @ np.array([*p, 1]))[:3])
 
     def tilt(self) -> None:
-        E, F = self.world(self.at("E", 0)), self.world(self.at("F", 0))
+        E, F = self.as_steered(self.at("E", 0)), self.as_steered(self.at("F", 0))
         across, out = self.front[:3, 1], self.eye_w / 2 + self.gap + self.t
         self.cylinder("tilt", "bucket_cylinder_barrel", "bucket_piston_rod", E, F, across, 0.085 * self.s)
         self.pin("bucket_cylinder_barrel_pin", "front_frame", self.at("E", -out), self.at("E", out))
 
     def lift(self) -> None:
-        s, t, world = self.s, self.t, self.world
+        s, t, world = self.s, self.t, self.as_steered
         across = self.front[:3, 1]
         self.tilt()
         out = self.eye_w / 2 + self.gap + t
