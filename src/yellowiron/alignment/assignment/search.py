@@ -20,6 +20,7 @@ from yellowiron.alignment.assignment.answer import (
     idle_links,
     is_whole,
     open_choices,
+    shows_what_is_special,
 )
 from yellowiron.alignment.assignment.cp_sat import (
     JOINT_WEIGHT,
@@ -199,6 +200,9 @@ class Search:
         sided = one_sided(observation, structure, solution, self.template, resolved)
         answer = Answer(contact, structure, chosen, resolved, solution, unary, sided, barred)
         self._tried.append((chosen, answer.score))
+        # With a part of what makes it special any machine that lacks something would be one.
+        if not (self.best is None or shows_what_is_special(answer, self.template)):
+            return
         if self.best is None or (is_whole(answer), answer.score) > (is_whole(self.best), self.best.score):
             self.best = answer
 
