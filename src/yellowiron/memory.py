@@ -22,8 +22,8 @@ from yellowiron.model.assembly import Assembly
 from yellowiron.model.finding import Finding
 from yellowiron.model.geometry import Floats
 from yellowiron.model.mechanism import Measurement, Mechanism
+from yellowiron.model.poses import Sweep
 from yellowiron.model.specification import Specifications
-from yellowiron.model.sweep import Sweep
 from yellowiron.model.template import Template
 from yellowiron.solved import Solved
 from yellowiron.support.caching.disk import kept, stages_are_kept

@@ -20,8 +20,8 @@ from yellowiron.model.assembly import Assembly
 from yellowiron.model.errors import YellowironError
 from yellowiron.model.finding import Finding
 from yellowiron.model.mechanism import Measurement, Mechanism
+from yellowiron.model.poses import Sweep
 from yellowiron.model.specification import Specifications
-from yellowiron.model.sweep import Sweep
 from yellowiron.said import values_by_hand
 from yellowiron.support.output import output_folder
 

@@ -6,7 +6,7 @@ import numpy as np
 from scipy.spatial.transform import Rotation
 
 from yellowiron.model.mechanism import Mechanism
-from yellowiron.model.sweep import PoseTable, PoseTables
+from yellowiron.model.poses import PoseTable, PoseTables
 
 
 def weights(axis: np.ndarray, x: float) -> tuple[int, np.ndarray]:

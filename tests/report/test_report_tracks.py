@@ -15,8 +15,8 @@ from yellowiron.model.alignment import Alignment, PartAssignment
 from yellowiron.model.assembly import Assembly, Part
 from yellowiron.model.geometry import Mesh, Shape
 from yellowiron.model.mechanism import Actuator, ActuatorJoint, Body, BodyPart, Drive, Joint, Mechanism
+from yellowiron.model.poses import PoseTables
 from yellowiron.model.specification import Specifications
-from yellowiron.model.sweep import PoseTables
 from yellowiron.model.template import Role, Template
 from yellowiron.report import BuildFacts, page, report_document
 from yellowiron.report.html.viewer import NOT_BUNDLED

@@ -20,7 +20,7 @@ from yellowiron.model.alignment import Alignment, PartAssignment
 from yellowiron.model.assembly import Assembly, Part
 from yellowiron.model.geometry import Mesh, Shape
 from yellowiron.model.mechanism import Actuator, ActuatorJoint, Body, BodyPart, Cylinder, Joint, Loop, Mechanism
-from yellowiron.model.sweep import PoseTable, PoseTables
+from yellowiron.model.poses import PoseTable, PoseTables
 from yellowiron.report.html import packing
 from yellowiron.report.html import viewer as module
 from yellowiron.report.html.viewer import viewer

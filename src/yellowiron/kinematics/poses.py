@@ -13,7 +13,7 @@ from yellowiron.kinematics.solver.chain import ClosedChain, Component, Kinematic
 from yellowiron.kinematics.solver.pose_grid import explore
 from yellowiron.model.geometry import Floats
 from yellowiron.model.mechanism import Joint, Mechanism
-from yellowiron.model.sweep import PoseTable, PoseTables
+from yellowiron.model.poses import PoseTable, PoseTables
 
 POINTS = {1: 41, 2: 21, 3: 9, 4: 6}
 """Grid points per driver, by how many drivers a group of loops has; groups with more get no table and stay as drawn."""

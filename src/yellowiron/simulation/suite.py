@@ -12,7 +12,7 @@ from typing import Any, Literal
 from yellowiron import usd
 from yellowiron.model.errors import YellowironError
 from yellowiron.model.finding import Finding
-from yellowiron.model.sweep import Snapshot, Sweep
+from yellowiron.model.poses import Snapshot, Sweep
 from yellowiron.simulation.driving.result import driving_document, driving_findings
 from yellowiron.simulation.driving.wheel import driven_wheels
 from yellowiron.simulation.driving.wheeled import drive

@@ -14,8 +14,8 @@ from yellowiron.model.alignment import Alignment, PartAssignment
 from yellowiron.model.assembly import Assembly
 from yellowiron.model.geometry import Floats
 from yellowiron.model.mechanism import Measurement, Mechanism
+from yellowiron.model.poses import PoseTables
 from yellowiron.model.specification import SheetPage
-from yellowiron.model.sweep import PoseTables
 from yellowiron.report.document import within_tolerance
 from yellowiron.report.html.drawing import Picture, draw
 from yellowiron.report.html.joints import joint_marks, joint_rows

@@ -10,7 +10,7 @@ import numpy as np
 
 from yellowiron.model.geometry import Floats
 from yellowiron.model.mechanism import Mechanism
-from yellowiron.model.sweep import Snapshot, Sweep
+from yellowiron.model.poses import Snapshot, Sweep
 from yellowiron.report.html.drawing import Picture
 from yellowiron.report.html.pictures import look_at, outline
 from yellowiron.report.html.plots import Chart, Curve, plot

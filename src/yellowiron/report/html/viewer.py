@@ -16,7 +16,7 @@ from yellowiron.model.alignment import Alignment, PartAssignment
 from yellowiron.model.assembly import Assembly, Part
 from yellowiron.model.geometry import Floats
 from yellowiron.model.mechanism import Actuator, Joint, Mechanism
-from yellowiron.model.sweep import PoseTables
+from yellowiron.model.poses import PoseTables
 from yellowiron.report.html.packing import Binary, largest, mesh_entry, packed, rgb
 from yellowiron.report.html.pictures import YELLOW, body_colors
 from yellowiron.report.html.sensors import views

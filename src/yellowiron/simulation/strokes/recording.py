@@ -9,7 +9,7 @@ from numpy.typing import NDArray
 
 from yellowiron.model.geometry import Floats
 from yellowiron.model.mechanism import Mechanism
-from yellowiron.model.sweep import Snapshot, Sweep, Trace
+from yellowiron.model.poses import Snapshot, Sweep, Trace
 from yellowiron.simulation.commands import Motion, Phase
 
 POINTS = 240

@@ -8,7 +8,7 @@ from dataclasses import asdict, dataclass
 from typing import Any
 
 from yellowiron.model.finding import Finding
-from yellowiron.model.sweep import Sweep
+from yellowiron.model.poses import Sweep
 
 
 @dataclass(frozen=True)

@@ -15,7 +15,7 @@ from yellowiron.model.errors import YellowironError
 from yellowiron.model.finding import Finding
 from yellowiron.model.geometry import Floats
 from yellowiron.model.mechanism import Mechanism
-from yellowiron.model.sweep import Sweep
+from yellowiron.model.poses import Sweep
 from yellowiron.simulation.commands import Motion, Phase, motions, phases
 from yellowiron.simulation.driving.rolling import rolling
 from yellowiron.simulation.driving.wheel import GroundWheel, driven_wheels

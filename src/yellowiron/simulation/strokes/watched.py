@@ -10,7 +10,7 @@ from numpy.typing import NDArray
 
 from yellowiron.model.errors import YellowironError
 from yellowiron.model.geometry import Floats
-from yellowiron.model.sweep import Snapshot
+from yellowiron.model.poses import Snapshot
 from yellowiron.simulation.commands import Motion, Phase, motions, phases
 from yellowiron.simulation.engine import Engine, Setup
 from yellowiron.simulation.ground import standing_bodies

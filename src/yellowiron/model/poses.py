@@ -1,5 +1,5 @@
-"""What an engine's run leaves to be looked at: a few poses, and errors and positions over time; and solved joint
-coordinates over the strokes: what a page needs to move a machine without a solver."""
+"""Poses of a machine: those that an engine's run went through, with errors and positions over time; and solved joint
+coordinates over the strokes, by which a page moves a machine without a solver."""
 
 from __future__ import annotations
 
