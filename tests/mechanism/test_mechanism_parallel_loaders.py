@@ -11,13 +11,17 @@ from typing import cast
 import numpy as np
 import pytest
 
+from kit.machines.defects import spoiled
 from kit.machines.parallel_loaders import parallel_loader
 from kit.machines.partly_drawn import without
+from kit.machines.synthetic import disguise
 from kit.machines.unseen import found_whole
 from yellowiron.alignment.assignment.answer import Answer, shows_what_is_special
+from yellowiron.alignment.pipeline import align
 from yellowiron.kinematics import ClosedChain
 from yellowiron.library import load_template
 from yellowiron.model.mechanism import Mechanism
+from yellowiron.model.specification import Specifications
 from yellowiron.model.template import choose
 from yellowiron.simulation import simulate
 from yellowiron.usd import write_machine
@@ -187,14 +191,26 @@ def test_half_of_what_makes_a_machine_special_does_not_show_it() -> None:
     """A public loader with a grapple had, by contacts, 72 % of this one's joints, and a sixth of it silently wrong."""
     template = load_template("wheel_loader")
 
-    def shown(lacking: str, **chosen: str) -> bool:
+    def shown(*lacking: str, **chosen: str) -> bool:
         decided = {**template.default_choices(), "lift_cylinders": "twin", **chosen}
         resolved = choose(template, decided)
-        found = {j.name for j in resolved.joints} - {lacking}
+        found = {j.name for j in resolved.joints} - {*lacking}
         solution = SimpleNamespace(hinge_of=dict.fromkeys(found, 0), slide_of={})
         answer = SimpleNamespace(choices=decided, template=resolved, solution=solution)
         return shows_what_is_special(cast(Answer, answer), template)
 
-    assert shown("front_wheel_l_joint", **choices(2)) and shown("boom2rocker_joint")
-    assert not shown("front_frame2levelling_link_joint", **choices(2))
-    assert not shown("bucket_piston_rod_r2tipping_link_joint", **choices(2))
+    wheels = tuple(f"{end}_wheel_{side}_joint" for end in ("front", "rear") for side in "lr")
+    assert shown(*wheels, **choices(2)) and shown(*wheels, "boom2rocker_joint")
+    assert shown("front_frame2levelling_link_joint", **choices(2)), "nearly all of the machine is found"
+    assert not shown(*wheels, "front_frame2levelling_link_joint", **choices(2))
+    assert not shown(*wheels, "bucket_piston_rod_r2tipping_link_joint", **choices(2))
+
+
+def test_a_boom_on_a_bracket_without_pins_is_still_one() -> None:
+    """One of the six joints that only it has is not found, and 24 of 25 of all: read as a common machine 85 parts of
+    206 were astray."""
+    machine = spoiled("mini", 1802, "no pins")
+    assembly, truth, _ = disguise(machine, 1802)
+    found = align(assembly, load_template("excavator"), Specifications())
+    assert found.choices["boom_type"] == "swing"
+    assert all(p.body == truth[p.part][1] for p in found.parts if truth[p.part][1])

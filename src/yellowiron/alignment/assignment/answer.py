@@ -61,6 +61,10 @@ class Answer:
         return self.solution.score - SIDED_WEIGHT * len(self.sided) - JOINT_WEIGHT * idle
 
 
+NEARLY_ALL = 0.9
+"""Swing booms without pins had 0.96 of their joints; a loader with a grapple, taken for a parallel linkage, 0.72."""
+
+
 def is_whole(answer: Answer) -> bool:
     """True where every body is played and every joint found, each at a place it may have, and no hydraulic cylinder is
     left over."""
@@ -89,8 +93,11 @@ def held_share(answer: Answer) -> float:
 
 
 def shows_what_is_special(answer: Answer, template: Template) -> bool:
-    """Whether every hinge and slide was found that only the special machine has that an answer takes this one for
-    (`Template.special`); `template`: the type with all its variants. With half of them any other linkage would do."""
+    """Whether an answer shows the special machine that it takes this one for (`Template.special`): it found every hinge
+    and slide that only this one has, or nearly all of the machine's (`NEARLY_ALL`). With a part of them any other
+    linkage would do. `template`: the type with all its variants."""
+    if held_share(answer) >= NEARLY_ALL:
+        return True
     special = template.special() & answer.choices.items()
     only = {
         j.name for j in template.joints if any({(n, c) for c in allowed} <= special for n, allowed in j.when.items())
