@@ -8,9 +8,9 @@ from pathlib import Path
 from types import SimpleNamespace
 from typing import cast
 
-import numpy as np
 import pytest
 
+from kit.circles import meet, strokes
 from kit.machines.defects import spoiled
 from kit.machines.parallel_loaders import parallel_loader
 from kit.machines.partly_drawn import without
@@ -85,21 +85,6 @@ class Circles:
         ear = meet(pull, abs(self.ear - self.pull), hinge, abs(self.ear - self.hinge), moved(self.ear))
         turned = (ear - hinge) / (self.ear - self.hinge)
         return hinge, math.atan2(turned.imag, turned.real)
-
-
-def meet(one: complex, r: float, other: complex, s: float, near: complex) -> complex:
-    """Where two circles meet, on the side of `near`."""
-    apart = abs(other - one)
-    along = (r * r - s * s + apart * apart) / (2.0 * apart)
-    way = (other - one) / apart
-    aside = 1j * way * math.sqrt(r * r - along * along)
-    return min((one + along * way + aside, one + along * way - aside), key=lambda p: abs(p - near))
-
-
-def strokes(mechanism: Mechanism, name: str, count: int) -> list[float]:
-    joint = mechanism.joint(name)
-    assert joint.lower is not None and joint.upper is not None
-    return [float(v) for v in np.linspace(joint.lower, joint.upper, count)]
 
 
 def test_it_moves_two_ways_and_goes_where_circles_say(built: tuple[Mechanism, int]) -> None:

@@ -10,6 +10,7 @@ import math
 import numpy as np
 import pytest
 
+from kit.circles import meet, strokes
 from kit.machines.dozers import dozer
 from kit.machines.partly_drawn import without
 from kit.machines.unseen import found_whole
@@ -47,27 +48,12 @@ class Circles:
 
     def moved(self, lift: float, tip: float, point: complex) -> complex:
         """Where a point of the beam is at two strokes from the drawn pose."""
-        eye = _meet(self.foot, abs(self.eye - self.foot) + lift, self.pivot, abs(self.eye - self.pivot), self.eye)
+        eye = meet(self.foot, abs(self.eye - self.foot) + lift, self.pivot, abs(self.eye - self.pivot), self.eye)
         turn = (eye - self.pivot) / (self.eye - self.pivot)
         beam = self.pivot + turn * (self.beam - self.pivot)
         radius, near = abs(self.end - self.beam), beam + turn * (self.end - self.beam)
-        end = _meet(self.top, abs(self.end - self.top) + tip, beam, radius, near)
+        end = meet(self.top, abs(self.end - self.top) + tip, beam, radius, near)
         return beam + (end - beam) / (self.end - self.beam) * (point - self.beam)
-
-
-def _meet(one: complex, r: float, other: complex, s: float, near: complex) -> complex:
-    """Where two circles meet, on the side of `near`."""
-    apart = abs(other - one)
-    along = (r * r - s * s + apart * apart) / (2.0 * apart)
-    way = (other - one) / apart
-    aside = 1j * way * math.sqrt(r * r - along * along)
-    return min((one + along * way + aside, one + along * way - aside), key=lambda p: abs(p - near))
-
-
-def _strokes(mechanism: Mechanism, name: str, count: int) -> list[float]:
-    joint = mechanism.joint(name)
-    assert joint.lower is not None and joint.upper is not None
-    return [float(v) for v in np.linspace(joint.lower, joint.upper, count)]
 
 
 def test_it_moves_two_ways(built: Mechanism) -> None:
@@ -82,7 +68,7 @@ def test_it_moves_two_ways(built: Mechanism) -> None:
 def test_it_goes_where_two_circles_say(built: Mechanism) -> None:
     chain, circles = ClosedChain(built), Circles(built)
     site = next(s for s in built.sites if s.name == "ripper_tip")
-    lifts, tips = _strokes(built, LIFT, 9), _strokes(built, TIP, 9)
+    lifts, tips = strokes(built, LIFT, 9), strokes(built, TIP, 9)
     worst = 0.0
     for lift, tip in itertools.product(lifts, tips):
         state = chain.solve({LIFT: lift, TIP: tip})
@@ -95,7 +81,7 @@ def test_it_goes_where_two_circles_say(built: Mechanism) -> None:
 def test_penetration_and_clearance_are_those_of_its_tips(built: Mechanism) -> None:
     site = next(s for s in built.sites if s.name == "ripper_tip")
     circles, point = Circles(built), complex(site.position[0], site.position[2])
-    heights = [circles.moved(lift, 0.0, point).imag for lift in _strokes(built, LIFT, 401)]
+    heights = [circles.moved(lift, 0.0, point).imag for lift in strokes(built, LIFT, 401)]
     found = {m.name: m.model for m in measure(built)}
     assert found["Ripper Penetration"] == pytest.approx(-min(heights), abs=1e-5)
     assert found["Ripper Lift Height"] == pytest.approx(max(heights), abs=1e-5)
@@ -133,13 +119,13 @@ def test_a_fixed_one_moves_one_way_and_its_shanks_keep_their_angle(fixed: Mechan
     site = next(s for s in fixed.sites if s.name == "ripper_tip")
     point = complex(site.position[0], site.position[2])
     worst, turned = 0.0, 0.0
-    for lift in _strokes(fixed, LIFT, 17):
+    for lift in strokes(fixed, LIFT, 17):
         state = chain.solve({LIFT: lift})
         moved = chain.displacement(state, "ripper_beam") @ [*site.position, 1.0]
-        up = _meet(foot, abs(eye - foot) + lift, pivot, abs(eye - pivot), eye)
+        up = meet(foot, abs(eye - foot) + lift, pivot, abs(eye - pivot), eye)
         turn = (up - pivot) / (eye - pivot)
         hung = pivot + turn * (beam - pivot)
-        held = _meet(top, abs(end - top), hung, abs(end - beam), hung + (end - beam))
+        held = meet(top, abs(end - top), hung, abs(end - beam), hung + (end - beam))
         expected = hung + (held - hung) / (end - beam) * (point - beam)
         worst = max(worst, abs(complex(moved[0], moved[2]) - expected))
         turned = max(turned, abs(math.degrees(cmath.phase((held - hung) / (end - beam)))))
