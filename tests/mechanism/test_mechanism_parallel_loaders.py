@@ -127,12 +127,15 @@ def test_positive_rolls_back_by_drawing_the_cylinders_in(built: tuple[Mechanism,
 
 def test_a_dump_is_timed_the_way_the_cylinder_goes() -> None:
     """Out where a cylinder pushes the bucket over, in where it pulls a Z-bar's rocker back."""
-    times = {}
-    for linkage in ("z_bar", "direct", "parallel"):
-        template = choose(load_template("wheel_loader"), {"tilt_linkage": linkage})
-        (bucket,) = (a for a in template.actuators if a.name == "bucket")
-        times[linkage] = {quantity for quantity, name in bucket.specifications.items() if name == "Dump Time"}
-    assert times == {"z_bar": {"retract_time"}, "direct": {"extend_time"}, "parallel": {"extend_time"}}
+
+    def timed(kind: str, variant: str, linkage: str, actuator: str, name: str) -> set[str]:
+        (found,) = (a for a in choose(load_template(kind), {variant: linkage}).actuators if a.name == actuator)
+        return {quantity for quantity, wanted in found.specifications.items() if wanted == name}
+
+    for linkage, way in (("z_bar", "retract_time"), ("direct", "extend_time"), ("parallel", "extend_time")):
+        assert timed("wheel_loader", "tilt_linkage", linkage, "bucket", "Dump Time") == {way}
+    for linkage, way in (("z_bar", "retract_time"), ("parallel", "extend_time")):
+        assert timed("backhoe_loader", "loader_linkage", linkage, "loader_bucket", "Loader Dump Time") == {way}
 
 
 @pytest.mark.parametrize(
