@@ -106,6 +106,25 @@ def test_what_could_as_well_be_a_bracket_is_doubtful(template: Template) -> None
     assert all(doubtful == {BRACKET} for _, doubtful in leads if doubtful)
 
 
+@pytest.mark.parametrize("near", ["upperstructure", "arm"])
+def test_what_is_beside_neither_of_the_two_is_no_bracket(template: Template, near: str) -> None:
+    """The bracket of a camera under an arm is called a bracket, and was a swing bracket for that, without a word."""
+    plain, swing = ({"boom_cylinders": "single", "boom_type": kind, "blade": "none"} for kind in ("mono", "swing"))
+    machines = [(chosen, choose(template, chosen)) for chosen in (plain, swing)]
+    evidence = _machine(pinned=False, own=True)
+    evidence.between[1:3] = [_beside(CHAIN.index(near), BRACKET), _beside(1, 2, level=True)]
+    votes = evidence.votes(machines[1][1])
+    field = field_of_leading(evidence, votes, machines[1][1])
+    labels = np.array([field.bodies.index(b) for b in (*CHAIN, "swing_bracket")])
+    best = Best(1e3, swing, machines[1][1], field, labels, votes, evidence.leading)
+    found, doubtful = interposed(best, machines, evidence)
+    stray = near == "arm"
+    assert found.choices["boom_type"] == ("mono" if stray else "swing")
+    assert doubtful == ({BRACKET} if stray else frozenset())
+    if stray:
+        assert [found.field.bodies[n] for n in found.labels[:BRACKET]] == list(CHAIN)
+
+
 def test_what_several_pieces_are_called_but_for_their_number_is_no_name_of_their_own() -> None:
     names = ["upper_1", "upper_2", "upper-3", "link_1", "link_2", "boom"]
     parts = cast("Any", [[SimpleNamespace(name=name)] for name in names])

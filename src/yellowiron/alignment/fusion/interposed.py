@@ -8,7 +8,7 @@ axis through the piece that no joint explains counts as one that a joint does.
 
 from __future__ import annotations
 
-from collections.abc import Iterator, Mapping, Sequence
+from collections.abc import Collection, Iterator, Mapping, Sequence
 from dataclasses import dataclass, replace
 
 import numpy as np
@@ -48,9 +48,10 @@ class _Place:
 def interposed(best: Best, machines: Sequence[Machine], evidence: Evidence) -> tuple[Best, frozenset[int]]:
     """The best labelling, or one of a variant with a body between two that were found, where that is better; and the
     pieces that could as well be such a body. `machines`: the variants' choices, and the templates with them."""
+    best, strays = _without_stray(best, machines, evidence)
     places = list(_places(best, machines))
-    if not places:
-        return best, frozenset()
+    if strays or not places:
+        return best, strays
     known = _without_idle_bars(evidence, labels_in(best.field, best, evidence.leading), best.field, best.template)
     told = whole_score(evidence, best.field, known, best.template)
     plain = replace(best, labels=known, score=told, leading=evidence.leading)
@@ -61,22 +62,59 @@ def interposed(best: Best, machines: Sequence[Machine], evidence: Evidence) -> t
     return best, frozenset(k for lead, k, _ in tried if lead >= AS_GOOD)
 
 
+def _without_stray(best: Best, machines: Sequence[Machine], evidence: Evidence) -> tuple[Best, frozenset[int]]:
+    """The best labelling; or, where nothing of a body between two others is beside either of the two, one of a variant
+    without that body, and the pieces that were it: a camera's bracket under an arm, called so, bears no boom."""
+    labels = [best.field.bodies[n] if n < len(best.field.bodies) else "" for n in best.labels]
+    bonds = {frozenset((labels[bond.a], labels[bond.b])) for bond in evidence.between if bond.beside or bond.hinge}
+    plainer: list[tuple[int, int, set[str]]] = []
+    for n, (choices, template) in enumerate(machines):
+        between = list(_between(best.template, template, best.played))
+        stray = {
+            body
+            for body, near, far in between
+            if body in best.played and not {frozenset((body, near)), frozenset((body, far))} & bonds
+        }
+        if stray:
+            plainer.append((_differ(choices, best.choices), n, stray))
+    if not plainer:
+        return best, frozenset()
+    _, n, stray = min(plainer, key=lambda one: one[:2])
+    choices, template = machines[n]
+    votes = evidence.votes(template)
+    field = field_of_leading(evidence, votes, template)
+    found, _ = labelled(field, labels_in(field, best, evidence.leading), sweeps=0, chains=1)
+    score = whole_score(evidence, field, found, template)
+    strays = frozenset(k for k, body in zip(evidence.leading, labels, strict=True) if body in stray)
+    return Best(score, choices, template, field, found, votes, evidence.leading), strays
+
+
 def _places(best: Best, machines: Sequence[Machine]) -> Iterator[_Place]:
     """The bodies that other variants have between two that are played, of variants that differ as little as can be."""
-    own, hinges = _plain(best.template), _hinges(best.template)
     found: dict[str, list[tuple[int, _Place]]] = {}
     for choices, template in machines:
-        theirs, bodies = _hinges(template), _plain(template)
-        # Of twins one alone is none.
-        for body in sorted(b for b in bodies - own if twin_role(b) is None):
-            beside = sorted({str(b) for pair in theirs if body in pair for b in pair - {body}} & own & best.played)
-            for near, far in ((a, b) for a in beside for b in beside if template.depth(a) < template.depth(b)):
-                if frozenset((near, far)) in hinges - theirs:
-                    differs = sum(best.choices.get(name) != choice for name, choice in choices.items())
-                    found.setdefault(body, []).append((differs, _Place(choices, template, body, near, far)))
+        for body, near, far in _between(template, best.template, best.played):
+            place = _Place(choices, template, body, near, far)
+            found.setdefault(body, []).append((_differ(choices, best.choices), place))
     for some in found.values():
         least = min(differs for differs, _ in some)
         yield from (place for differs, place in some if differs == least)
+
+
+def _between(template: Template, other: Template, played: Collection[str]) -> Iterator[tuple[str, str, str]]:
+    """The bodies that a template has between two that are played, and that hinge on each other in the `other` one: each
+    with these two."""
+    theirs, own = _hinges(template), _plain(other)
+    # Of twins one alone is none.
+    for body in sorted(b for b in _plain(template) - own if twin_role(b) is None):
+        beside = sorted({str(b) for pair in theirs if body in pair for b in pair - {body}} & own & {*played})
+        for near, far in ((a, b) for a in beside for b in beside if template.depth(a) < template.depth(b)):
+            if frozenset((near, far)) in _hinges(other) - theirs:
+                yield body, near, far
+
+
+def _differ(choices: Mapping[str, str], others: Mapping[str, str]) -> int:
+    return sum(others.get(name) != choice for name, choice in choices.items())
 
 
 def _plain(template: Template) -> set[str]:
