@@ -12,7 +12,7 @@ from yellowiron.alignment.features.solids import Solid, size_of, solids_of
 from yellowiron.alignment.features.wheels import Wheel, wheels_of
 from yellowiron.alignment.fusion.annealing import labelled
 from yellowiron.alignment.fusion.bonds import Bond
-from yellowiron.alignment.fusion.evidence import Evidence
+from yellowiron.alignment.fusion.evidence import Evidence, ways_of
 from yellowiron.alignment.fusion.judge import field_of, score_of, weights
 from yellowiron.alignment.fusion.stance import Stance, on_wheels, stance_of
 from yellowiron.alignment.fusion.votes import odd_wheels
@@ -178,6 +178,25 @@ def test_a_cylinder_and_its_twin_change_sides_together() -> None:
     found, score = labelled(field, wrong, sweeps=0, chains=1)
     assert found.tolist() == right.tolist()
     assert score == pytest.approx(score_of(field, right))
+
+
+def test_a_stand_may_be_wider_than_it_is_long() -> None:
+    """An excavator on a short frame with wide wheels, its arm as low, was looked for in the middle between frame and
+    bucket: the frame's own middle is another way to stand."""
+    machine = solids(
+        *((box(0.4, 0.2, 0.4), (x, y, 0.2)) for x in (-0.1, 0.1) for y in (-0.6, 0.6)),
+        (box(0.6, 0.4, 0.6), (0.0, 0.0, 0.5)), (box(2.0, 0.3, 0.3), (1.2, 0.0, 0.16)),
+    )  # fmt: skip
+    stance = stance_of(machine, size_of(machine))
+    (other,) = stance.elsewhere()
+    assert stance.origin[0] > 0.5
+    assert other.origin[0] == pytest.approx(0.0, abs=0.05)
+    assert not other.elsewhere()
+    resolved = load_template("excavator")
+    nothing: Any = ()
+    evidence = Evidence((), (), (), nothing, nothing, stance, (), nothing, {}, frozenset(), 1.0)
+    ways = [way.stance.place(np.zeros(3))[0] for way in ways_of(evidence, resolved, tracked=True)]
+    assert len(ways) == 4 and min(np.abs(ways)) == pytest.approx(0.0, abs=0.02)
 
 
 def test_what_is_taken_for_a_part_of_a_larger_machine_pays_for_its_size_piece_by_piece() -> None:

@@ -37,7 +37,7 @@ CELL = 0.02
 OUTER = 0.6
 """What a machine stands on is farther than this share of its stand's half width from the middle."""
 STEADY = 0.6
-"""A stand is at least so many times as long as it is wide, …"""
+"""A stand is usually at least so many times as long as it is wide."""
 WHEELS, BASE = 4, 0.1
 """So many wheels tell where a machine stands, if they are so far from each other, along and across, in sizes."""
 UPRIGHT = 2.0
@@ -55,7 +55,8 @@ class Stance:
     """`rotation` (3, 3): rows forward, left, up, in the CAD frame; `origin` (3,) on the ground, in the middle of what
     the machine stands on; `size` metres; `likeness` 0 to 1, how alike left and right are; `wheeled`: whether it stands
     on wheels that were found. Where only a part of a machine is `drawn`, `absent` bodies are not in it, and its size is
-    `larger` times what the surface tells by itself. `told`: a person said where its front is."""
+    `larger` times what the surface tells by itself. `told`: a person said where its front is. `other` (3,): where the
+    origin could be as well; none where what it stands on tells that."""
 
     rotation: Floats
     origin: Floats
@@ -66,6 +67,7 @@ class Stance:
     absent: frozenset[str] = frozenset()
     told: bool = False
     larger: float = 1.0
+    other: Floats | None = None
 
     @property
     def left(self) -> Floats:
@@ -76,6 +78,10 @@ class Stance:
         """The same with its front behind."""
         return replace(self, rotation=self.rotation * np.array([[-1.0], [-1.0], [1.0]]))
 
+    def elsewhere(self) -> list[Stance]:
+        """The same with its origin where that could be as well."""
+        return [] if self.other is None else [replace(self, origin=self.other, other=None)]
+
     def as_part(self, points: Floats, low: Floats, high: Floats, drawn: float, absent: Collection[str]) -> Stance:
         """The same if what is drawn (`points` (n, 3) all over it) is the part of a machine that is usually between
         `low` and `high` (3,), in machine sizes, has so much of its surface, and is without the `absent` bodies."""
@@ -84,7 +90,8 @@ class Stance:
         size = float(np.linalg.norm(ends[1] - ends[0]) / np.linalg.norm(high - low))
         middle = self.rotation.T @ (ends.mean(axis=0) - 0.5 * (low + high) * size)
         larger = size / self.size * self.larger
-        return replace(self, origin=middle, size=size, drawn=drawn, absent=frozenset(absent), larger=larger)
+        lost = frozenset(absent)
+        return replace(self, origin=middle, other=None, size=size, drawn=drawn, absent=lost, larger=larger)
 
     def matrix(self) -> Floats:
         """(4, 4) from CAD metres to the machine's frame."""
@@ -115,10 +122,11 @@ def stance_of(solids: Sequence[Solid], size: float, hinges: Sequence[Floats] = (
     # A bucket may be as low: tracks are farther out than it is.
     aside = np.abs(standing @ left - 0.5 * ((standing @ left).min() + (standing @ left).max()))
     outer = standing[aside >= OUTER * aside.max()]  # all of it, where it has no width
-    # Nothing stands on two wheels: the third is in the middle.
-    standing = outer if np.ptp(outer @ forward) >= STEADY * np.ptp(outer @ left) else standing
-    middle = 0.5 * (standing.min(axis=0) + standing.max(axis=0))
-    return Stance(np.array([forward, left, up]), middle, size, likeness, told=facing.forward is not None)
+    middle, inner = (0.5 * (some.min(axis=0) + some.max(axis=0)) for some in (outer, standing))
+    found = Stance(np.array([forward, left, up]), middle, size, likeness, told=facing.forward is not None)
+    # Nothing stands on two wheels: the third is in the middle. But a stand may be wider than it is long.
+    steady = np.ptp(outer @ forward) >= STEADY * np.ptp(outer @ left)
+    return found if steady else replace(found, origin=inner, other=middle)
 
 
 def on_wheels(stance: Stance, wheels: Sequence[Wheel]) -> Stance:
@@ -135,7 +143,7 @@ def on_wheels(stance: Stance, wheels: Sequence[Wheel]) -> Stance:
         return stance
     ahead = 0.5 * ((run - radii).min() + (run + radii).max())
     middle = ahead * forward + 0.5 * (across.min() + across.max()) * left + float(heights.mean()) * up
-    return replace(stance, origin=middle, wheeled=True)
+    return replace(stance, origin=middle, other=None, wheeled=True)
 
 
 def surface_points(solids: Sequence[Solid], count: int = POINTS) -> Floats:
