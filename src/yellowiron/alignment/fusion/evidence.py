@@ -120,8 +120,8 @@ def _namesakes(parts: Sequence[Sequence[Part]]) -> frozenset[int]:
 
 
 def ways_of(evidence: Evidence, template: Template, tracked: bool) -> list[Evidence]:
-    """How the machine may stand: which end is the front is a guess so far, and so are where it stands, if that is short,
-    and whether all of it is drawn. What has tracks (`tracked`), or wheels to stand on, has a root."""
+    """How the machine may stand: which end is the front is a guess so far, and so are where it stands, if that is short
+    and wide, and whether all of it is drawn. What has tracks (`tracked`), or wheels to stand on, has a root."""
     whole = tracked or evidence.stance.wheeled
     return [
         replace(evidence, stance=stance)
