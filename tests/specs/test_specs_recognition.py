@@ -13,12 +13,12 @@ from reportlab.lib.utils import ImageReader
 from specs_layouts import canvas, put, template, wanted
 from test_specs_ocr import ROWS, pictured
 
-from yellowiron.specs import extraction, ocr
+from yellowiron.specs import extraction, ocr, reader
 from yellowiron.specs.layout.router import statements_of
 from yellowiron.specs.layout.statement import Statement, looks_like_value
-from yellowiron.specs.ocr import Recognised, with_cubes
+from yellowiron.specs.ocr import with_cubes
 from yellowiron.specs.pages.words import Page, Word
-from yellowiron.specs.reader import read_sheet
+from yellowiron.specs.reader import PageRead, read_sheet
 from yellowiron.specs.recognition.mending import levelled, with_whole_units, without_leaders
 from yellowiron.specs.recognition.rapid import words_of_line
 from yellowiron.specs.recognition.spelling import spelled
@@ -171,21 +171,21 @@ def test_another_program_says_only_what_the_first_leaves_open(tmp_path: Path, mo
         "tesseract": [("Wheelbase", "3950 mm"), ("Operating weight", "25 510 kg")],
     }
 
-    def recognise(path: Path, numbers: tuple[int, ...], program: str) -> list[Recognised]:
+    def recognise(path: Path, numbers: tuple[int, ...], program: str) -> list[PageRead]:
         rows = [
             Statement(1, n, label, text, (300.0, 130.0, 350.0, 140.0), f"{label} {text}")
             for n, (label, text) in enumerate(said[program])
         ]
-        return [Recognised(1, tuple(rows), "", ())]
+        return [PageRead(1, tuple(rows))]
 
-    guarded = extraction.run_guarded
+    guarded = reader.run_guarded
 
     def run(target: str, *given: object, **options: object) -> object:
         if target.endswith("ocr:recognise"):
             return recognise(*given)  # type: ignore[arg-type]
         return guarded(target, *given, **options)  # type: ignore[arg-type]
 
-    monkeypatch.setattr(extraction, "run_guarded", run)
+    monkeypatch.setattr(reader, "run_guarded", run)
     monkeypatch.setattr(ocr, "programs", lambda: ("rapidocr", "tesseract"))
     asked = template(wanted("Wheelbase", "length"), wanted("Operating Weight", "mass"), wanted("Tread", "length"))
     found = extraction.extract(asked, [pictured(tmp_path / "scan.pdf", ROWS)])

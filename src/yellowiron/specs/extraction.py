@@ -21,7 +21,7 @@ from yellowiron.specs.layout.nearest import Near
 from yellowiron.specs.llm.agreement import Asked, agreed
 from yellowiron.specs.llm.page_reader import Reading, pages_of, read_pages
 from yellowiron.specs.machines import of_others, of_sisters, several, with_machines
-from yellowiron.specs.reader import MEMORY_MB, RESIDENT_MB, TIMEOUT_S, Sheet, check_file
+from yellowiron.specs.reader import TIMEOUT_S, PageRead, Sheet, check_file, in_child
 from yellowiron.specs.values.claims import Claim, claims_of
 from yellowiron.specs.values.cross_check import second_reading, stands_in
 from yellowiron.specs.values.decision import Column, Sheets, decide, missing, placed, quantity_words, unreadable
@@ -31,7 +31,7 @@ from yellowiron.specs.values.qualifiers import of_configuration
 from yellowiron.specs.values.requested import asked
 from yellowiron.specs.values.tolerances import PICTURED
 from yellowiron.specs.values.values_in_labels import in_label
-from yellowiron.support.guard import Wording, run_guarded
+from yellowiron.support.guard import Wording
 
 Extractor = Literal["rules", "llm", "both"]
 
@@ -70,17 +70,7 @@ def read(path: Path, *, progress: Callable[[str], None] = lambda words: None) ->
     """A PDF's statements, read in guarded child processes; `progress` is told each page."""
     path = Path(path)
     check_file(path)
-    sheet = run_guarded(
-        "yellowiron.specs.reader:read_sheet",
-        path.resolve(),
-        where=str(path),
-        error=SheetError,
-        timeout_s=TIMEOUT_S,
-        memory_mb=MEMORY_MB,
-        resident_mb=RESIDENT_MB,
-        progress=progress,
-    )
-    assert isinstance(sheet, Sheet)
+    sheet: Sheet = in_child("reader:read_sheet", path, progress=progress)
     readings = [_recognised(sheet, path, program, progress) for program in (ocr.programs() if sheet.silent else ())]
     first, *others = [one for one in readings if one.recognised] or readings[-1:] or [sheet]
     return replace(first, again=others[0] if others else None)
@@ -90,19 +80,8 @@ def _recognised(sheet: Sheet, path: Path, program: str, progress: Callable[[str]
     """The sheet with what a recognition program makes of its silent pages, in a child of its own: a picture that breaks
     it costs no page that has text."""
     try:
-        pages: list[ocr.Recognised] = run_guarded(
-            "yellowiron.specs.ocr:recognise",
-            path.resolve(),
-            sheet.silent,
-            program,
-            where=str(path),
-            error=SheetError,
-            timeout_s=2.0 * TIMEOUT_S,
-            memory_mb=MEMORY_MB,
-            resident_mb=ocr.RESIDENT_MB,
-            wording=Wording("Text recognition"),
-            progress=progress,
-        )
+        bounds = {"timeout_s": 2.0 * TIMEOUT_S, "resident_mb": ocr.RESIDENT_MB, "wording": Wording("Text recognition")}
+        pages: list[PageRead] = in_child("ocr:recognise", path, sheet.silent, program, progress=progress, **bounds)
     except SheetError as error:
         return replace(sheet, unrecognised=f"{error.message} ({error.hint})")
     known = {page.number: page.titles for page in pages}
