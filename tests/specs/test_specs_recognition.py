@@ -81,7 +81,7 @@ def test_a_page_whose_points_are_pixels_is_read_as_one_of_paper(
     ]
     read: list[Page] = []
     monkeypatch.setitem(ocr._WORDS, "rapidocr", lambda picture, scale: seen)
-    monkeypatch.setattr(ocr, "statements_of", lambda page: (read.append(page), statements_of(page))[1])
+    monkeypatch.setattr(reader, "statements_of", lambda page: (read.append(page), statements_of(page))[1])
     (page,) = ocr.recognise(tmp_path / "a.pdf", [1], "rapidocr")
     assert [(s.label, s.text) for s in page.statements] == [(a, f"{b} {c}") for a, b, c in rows]
     assert {w.size for w in read[0].words} == {9.0} and read[0].width == pytest.approx(595, rel=1e-6)

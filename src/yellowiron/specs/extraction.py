@@ -24,7 +24,7 @@ from yellowiron.specs.machines import of_others, of_sisters, several, with_machi
 from yellowiron.specs.reader import TIMEOUT_S, PageRead, Sheet, check_file, in_child
 from yellowiron.specs.values.claims import Claim, claims_of
 from yellowiron.specs.values.cross_check import second_reading, stands_in
-from yellowiron.specs.values.decision import Column, Sheets, decide, missing, placed, quantity_words, unreadable
+from yellowiron.specs.values.decision import Column, Sheets, decide, missing, placed, quantity_words
 from yellowiron.specs.values.matching import match
 from yellowiron.specs.values.only_unit import in_only_unit
 from yellowiron.specs.values.qualifiers import of_configuration
@@ -248,7 +248,7 @@ def _of_pictures(
     for one in wanted:
         found[one.name] = _at_most_review(found[one.name], pictures)
         if silent and found[one.name].status == "missing":
-            found[one.name] = unreadable(one, silent)
+            found[one.name] = missing(one, "unreadable", f"{', '.join(silent)} has no text that can be read")
     return found
 
 
