@@ -10,7 +10,7 @@ from specs_layouts import canvas, put, template, wanted
 from yellowiron.specs import extract
 from yellowiron.specs.language.decimal_style import DecimalStyle
 from yellowiron.specs.language.units import printed_unit
-from yellowiron.specs.layout.grids.open_sided import merged
+from yellowiron.specs.layout.grids.partly_ruled import merged
 from yellowiron.specs.layout.statement import Statement
 from yellowiron.specs.machines import with_machines
 from yellowiron.specs.pages.strokes import DrawnRule

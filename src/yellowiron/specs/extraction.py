@@ -14,7 +14,7 @@ from yellowiron.model.finding import Finding
 from yellowiron.model.specification import Specification, Specifications
 from yellowiron.model.template import Template, Wanted
 from yellowiron.specs import ocr
-from yellowiron.specs.columns import configured
+from yellowiron.specs.columns import configured, of_configuration
 from yellowiron.specs.findings import ignored_phrases, model_cost, model_failure, unread_pages, unusable_answers
 from yellowiron.specs.language.decimal_style import DecimalStyle, decimal_style
 from yellowiron.specs.layout.nearest import Near
@@ -22,12 +22,10 @@ from yellowiron.specs.llm.agreement import Asked, agreed
 from yellowiron.specs.llm.page_reader import Reading, pages_of, read_pages
 from yellowiron.specs.machines import of_others, of_sisters, several, with_machines
 from yellowiron.specs.reader import TIMEOUT_S, PageRead, Sheet, check_file, in_child
-from yellowiron.specs.values.claims import Claim, claims_of
+from yellowiron.specs.values.claims import Claim, claims_of, in_only_unit
 from yellowiron.specs.values.cross_check import second_reading, stands_in
 from yellowiron.specs.values.decision import Column, Sheets, decide, missing, placed, quantity_words
 from yellowiron.specs.values.matching import match
-from yellowiron.specs.values.only_unit import in_only_unit
-from yellowiron.specs.values.qualifiers import of_configuration
 from yellowiron.specs.values.requested import asked
 from yellowiron.specs.values.tolerances import PICTURED
 from yellowiron.specs.values.values_in_labels import in_label

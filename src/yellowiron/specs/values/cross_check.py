@@ -20,11 +20,10 @@ from yellowiron.specs.layout.nearest import Near, Side
 from yellowiron.specs.layout.statement import Statement
 from yellowiron.specs.pages.strokes import Box
 from yellowiron.specs.values.claims import BARE_UNITS, Claim, claims_of, phrases_in
-from yellowiron.specs.values.contention import Match
+from yellowiron.specs.values.contention import Match, extremes
 from yellowiron.specs.values.decision import Sheets, candidate, evidence_of, name_printed, printed, settled, specified
 from yellowiron.specs.values.matching import match
 from yellowiron.specs.values.requested import check_hint, usual
-from yellowiron.specs.values.series import extremes
 from yellowiron.specs.values.tolerances import DOUBTFUL, SURE
 from yellowiron.support.text import with_article
 

@@ -16,9 +16,8 @@ from yellowiron.specs.language.vocabulary import tokens
 from yellowiron.specs.layout.statement import Statement, words_beside_numbers
 from yellowiron.specs.pages.strokes import Box
 from yellowiron.specs.values.claims import Claim, configured_by, names_model, sisters_in, split_phrases, without_case
-from yellowiron.specs.values.contention import Match, of_another_place
+from yellowiron.specs.values.contention import Match, called, extremes, first_of_two, of_another_place
 from yellowiron.specs.values.requested import check_hint, hint_for, usual
-from yellowiron.specs.values.series import called, extremes, first_of_two
 from yellowiron.specs.values.stated_configuration import Stated
 from yellowiron.specs.values.tolerances import DOUBTFUL, SURE
 from yellowiron.support.units import SI_UNIT

@@ -6,8 +6,14 @@ import itertools
 from bisect import bisect_left, bisect_right
 from collections.abc import Sequence
 
-from yellowiron.specs.layout.grids.open_sided import joined, merged, side_walls
-from yellowiron.specs.layout.grids.partly_ruled import with_columns, with_rows, with_values_apart
+from yellowiron.specs.layout.grids.partly_ruled import (
+    joined,
+    merged,
+    side_walls,
+    with_columns,
+    with_rows,
+    with_values_apart,
+)
 from yellowiron.specs.layout.grids.table_grid import Cell, TableGrid
 from yellowiron.specs.layout.rows.lines import lines_of
 from yellowiron.specs.layout.statement import join_boxes, split_inline

@@ -9,12 +9,11 @@ from dataclasses import replace
 from yellowiron.specs.language.numbers import read
 from yellowiron.specs.layout.rows.cells import ValueCell, statement_of
 from yellowiron.specs.layout.rows.headings import Heading, bar_under, bars_of, body_size
-from yellowiron.specs.layout.rows.key_columns import without_keys
+from yellowiron.specs.layout.rows.legends import without_keys
 from yellowiron.specs.layout.rows.lines import TextBlock, TextLine, bands
 from yellowiron.specs.layout.rows.prose import paragraphs_of, read_paragraph
 from yellowiron.specs.layout.rows.reader_state import ReaderState, TextColumn
-from yellowiron.specs.layout.rows.row_bands import split_if_separate
-from yellowiron.specs.layout.rows.two_line_rows import unfolded
+from yellowiron.specs.layout.rows.row_bands import split_if_separate, unfolded
 from yellowiron.specs.layout.rows.value_rows import in_section, read_values
 from yellowiron.specs.layout.rows.word_rows import read_words
 from yellowiron.specs.layout.statement import (
