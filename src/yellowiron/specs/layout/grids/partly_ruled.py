@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import itertools
 from collections import Counter
-from collections.abc import Iterator, Mapping, Sequence
+from collections.abc import Iterable, Iterator, Mapping, Sequence
 from dataclasses import replace
 from itertools import pairwise
 
@@ -116,36 +116,39 @@ def with_values_apart(grid: TableGrid) -> TableGrid:
 
 def _walled(cell: Cell, walls: Mapping[int, float]) -> Iterator[Cell]:
     """A cell cut at the walls that its pieces leave free and stand on both sides of."""
-    (left, top, right, bottom), (first, last) = cell.box, cell.columns
+    first, last = cell.columns
     for column in range(first + 1, last):
-        x = walls.get(column, left)
-        before = [p for p in cell.pieces if p.x1 <= x + 1]
-        after = [p for p in cell.pieces if p.x0 >= x - 1]
-        if left < x < right and before and after and len(before) + len(after) == len(cell.pieces):
-            lines = [tuple(lines_of([w for p in part for w in p.words])) for part in (before, after)]
-            yield replace(cell, box=(left, top, x, bottom), columns=(first, column), lines=lines[0])
-            rest = replace(cell, box=(x, top, right, bottom), columns=(column, last), lines=lines[1])
+        x = walls.get(column, cell.box[0])
+        before, after = [p for p in cell.pieces if p.x1 <= x + 1], [p for p in cell.pieces if p.x0 >= x - 1]
+        if cell.box[0] < x < cell.box[2] and before and after and len(before) + len(after) == len(cell.pieces):
+            part, rest = _cut(cell, x, (first, column), (column, last))
+            yield part
             yield from _walled(rest, walls)
             return
     yield cell
+
+
+def _cut(cell: Cell, x: float, before: tuple[int, int], after: tuple[int, int]) -> tuple[Cell, Cell]:
+    """The two parts of a cell with a wall at `x` between them, and the columns that they cover."""
+    left, top, right, bottom = cell.box
+    words = [w for p in cell.pieces for w in p.words]
+    lines = [tuple(lines_of([w for w in words if ((w.x0 + w.x1) / 2 < x) == is_left])) for is_left in (True, False)]
+    return (
+        replace(cell, box=(left, top, x, bottom), columns=before, lines=lines[0]),
+        replace(cell, box=(x, top, right, bottom), columns=after, lines=lines[1]),
+    )
 
 
 def _halves(cell: Cell) -> tuple[Cell, ...]:
     pieces = sorted(cell.pieces, key=lambda p: p.x0)
     ends = list(itertools.accumulate((p.x1 for p in pieces), max))
     gaps = [(after.x0 - end, index + 1) for index, (end, after) in enumerate(zip(ends, pieces[1:], strict=False))]
-    (left, top, right, bottom), (first, last) = cell.box, cell.columns
     wide, at = max(gaps, default=(0.0, 0))
-    if wide < _APART * (right - left) or not all(kind_of(p) == "text" for p in pieces[:at]):
+    parted = wide >= _APART * (cell.box[2] - cell.box[0]) and all(kind_of(p) == "text" for p in pieces[:at])
+    if not parted or not any(looks_like_value(p.bare) for p in pieces[at:]):
         return (cell,)
-    if not any(looks_like_value(p.bare) for p in pieces[at:]):
-        return (cell,)
-    x = (ends[at - 1] + pieces[at].x0) / 2
-    sides = ((left, top, x, bottom), (first, first + 1)), ((x, top, right, bottom), (first + 1, last))
-    return tuple(
-        replace(cell, box=box, columns=columns, lines=tuple(lines_of([w for p in part for w in p.words])))
-        for (box, columns), part in zip(sides, (pieces[:at], pieces[at:]), strict=True)
-    )
+    first, last = cell.columns
+    return _cut(cell, (ends[at - 1] + pieces[at].x0) / 2, (first, first + 1), (first + 1, last))
 
 
 def _gap(grid: TableGrid, column: int) -> float | None:
@@ -167,12 +170,9 @@ def _gap(grid: TableGrid, column: int) -> float | None:
 def _with_wall(grid: TableGrid, column: int, x: float) -> TableGrid:
     cells: list[Cell] = []
     for cell in grid.cells:
-        (left, top, right, bottom), (first, last) = cell.box, cell.columns
+        first, last = cell.columns
         if (first, last) == (column, column + 1) and not any(p.x0 < x < p.x1 for p in cell.pieces):
-            sides = ((left, top, x, bottom), (first, first + 1)), ((x, top, right, bottom), (last, last + 1))
-            for box, columns in sides:
-                words = [w for p in cell.pieces for w in p.words if box[0] <= (w.x0 + w.x1) / 2 < box[2]]
-                cells.append(replace(cell, box=box, columns=columns, lines=tuple(lines_of(words))))
+            cells += _cut(cell, x, (first, first + 1), (last, last + 1))
         else:
             cells.append(replace(cell, columns=(first + (first > column), last + (last > column))))
     return replace(grid, cells=tuple(cells), columns=grid.columns + 1)
@@ -221,12 +221,12 @@ def _lacks_wall(
     return bool(right) if x > max(inner) else "text" in left and "value" not in left
 
 
-def merged(level: Sequence[DrawnRule]) -> list[DrawnRule]:
+def merged(level: Iterable[DrawnRule], slack: float = SNAP) -> list[DrawnRule]:
     """Rules at one height that touch are one; from top to bottom."""
     found: list[DrawnRule] = []
     for rule in sorted(level, key=lambda r: (round(r.top), r.x0)):
         last = found[-1] if found else None
-        touch = last is not None and last.x0 - SNAP <= rule.x1 and rule.x0 <= last.x1 + SNAP
+        touch = last is not None and last.x0 - slack <= rule.x1 and rule.x0 <= last.x1 + slack
         if last is not None and touch and abs(last.top - rule.top) <= 1:
             found[-1] = DrawnRule(min(last.x0, rule.x0), last.top, max(last.x1, rule.x1), last.top)
         else:
@@ -234,17 +234,14 @@ def merged(level: Sequence[DrawnRule]) -> list[DrawnRule]:
     return sorted(found, key=lambda r: (r.top, r.x0))
 
 
-def joined(walls: Sequence[DrawnRule]) -> list[DrawnRule]:
+def joined(walls: Iterable[DrawnRule]) -> list[DrawnRule]:
     """Walls at one place that touch are one, though drawn row by row."""
-    found: list[DrawnRule] = []
-    for wall in sorted(walls, key=lambda w: (round(w.x0), w.top)):
-        last = found[-1] if found else None
-        touch = last is not None and last.top - 1 <= wall.top <= last.bottom + 1
-        if last is not None and touch and abs(last.x0 - wall.x0) <= 1:
-            found[-1] = DrawnRule(last.x0, last.top, last.x0, max(last.bottom, wall.bottom))
-        else:
-            found.append(wall)
-    return found
+    return [DrawnRule(w.top, w.x0, w.bottom, w.x1) for w in merged((_laid(w) for w in walls), slack=1.0)]
+
+
+def _laid(wall: DrawnRule) -> DrawnRule:
+    """A wall as a level rule, its height for its place."""
+    return DrawnRule(wall.top, wall.x0, wall.bottom, wall.x0)
 
 
 def heads_above(
