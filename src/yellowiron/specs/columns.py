@@ -1,4 +1,5 @@
-"""The columns of a sheet's tables: the models or configurations that `--config` chooses among."""
+"""The columns of a sheet's tables, and what the ends of labels name: the models or configurations that `--config`
+chooses among."""
 
 from __future__ import annotations
 

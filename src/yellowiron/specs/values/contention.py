@@ -1,4 +1,5 @@
-"""A match of a claim with a wanted value, and what several matches say of each other: twins, shared headings, ends."""
+"""A match of a claim with a wanted value, and what several matches say of each other: twins, shared headings, ends, and
+values that a sheet counts (a speed for each gear, a pull for each layer of rope): the greatest is the maximum."""
 
 from __future__ import annotations
 

@@ -1,4 +1,4 @@
-"""Tables that are ruled in part: rows that no rule parts, a line for each in every cell, and columns without walls."""
+"""Tables that are ruled in part: rows, columns and sides without rules, heads on a bar above them."""
 
 from __future__ import annotations
 

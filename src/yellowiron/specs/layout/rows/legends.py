@@ -1,4 +1,5 @@
-"""A drawing's legend, "A  Height to hinge pin", with the values in a table headed by its letters alone."""
+"""The keys of drawings: a legend, "A  Height to hinge pin", with the values in a table headed by its letters alone, and
+keys that stand beside the rows and are none of their labels."""
 
 from __future__ import annotations
 

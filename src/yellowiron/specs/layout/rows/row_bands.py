@@ -1,4 +1,4 @@
-"""What a band between two rules holds: one row, several rows, or a heading over a row."""
+"""Which lines are a row: what stands between two rules, and labels that are folded over their values."""
 
 from __future__ import annotations
 
