@@ -8,7 +8,7 @@ from yellowiron.specs.language.numbers import read
 from yellowiron.specs.language.quantities import same
 from yellowiron.specs.layout.rows.cells import cells_of
 from yellowiron.specs.layout.rows.lines import TextLine
-from yellowiron.specs.layout.statement import TextPiece, kind_of, unit_in_label
+from yellowiron.specs.layout.statement import TextPiece, kind_of, unit_in_label, words_beside_numbers
 from yellowiron.specs.layout.tolerances import INDENT, LARGER
 
 
@@ -20,6 +20,9 @@ def split_if_separate(row: Sequence[TextLine]) -> Iterator[Sequence[TextLine]]:
     if rest and (_is_heading_over(first, rest) or _are_units_over(first, rest)):
         yield (first,)
         yield from split_if_separate(rest)
+    elif len(rest) == 1 and _are_heads_of(first, rest[0]):
+        yield (first,)
+        yield (rest[0],)
     elif before and _is_heading_under(last, before):
         yield from split_if_separate(before)
         yield (last,)
@@ -82,6 +85,18 @@ def _is_labelled(line: TextLine) -> bool:
 def _words(line: TextLine) -> list[TextPiece]:
     """What a line says, without the sign at its end that folds a section of a web page."""
     return [p for p in line.pieces if kind_of(p) != "mark"]
+
+
+def _are_heads_of(line: TextLine, row: TextLine) -> bool:
+    """Whether a line names the columns of the row under it: words with numbers ("Arm 2.4 m"), one over each of its two
+    or more bare values, and none over its label."""
+    values = [p for p in row.pieces if kind_of(p) == "value"]
+    if len(line.pieces) < 2 or len(values) != len(line.pieces) or kind_of(row.pieces[0]) != "text":
+        return False
+    over = all(h.x0 < v.x1 + 4 and v.x0 - 4 < h.x1 for h, v in zip(line.pieces, values, strict=True))
+    named = all(words_beside_numbers(h.bare, read(h.bare)) for h in line.pieces)
+    bare = not any(words_beside_numbers(v.bare, read(v.bare)) for v in values)
+    return over and named and bare and line.bottom <= row.top + 2 and line.x0 > row.x0 + 2 * line.pieces[0].size
 
 
 def _in_two_systems(lines: Sequence[TextLine]) -> bool:

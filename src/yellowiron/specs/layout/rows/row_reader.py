@@ -6,8 +6,9 @@ import re
 from collections.abc import Sequence
 from dataclasses import replace
 
+from yellowiron.specs.language.numbers import read
 from yellowiron.specs.layout.rows.cells import ValueCell, statement_of
-from yellowiron.specs.layout.rows.headings import Heading, bars_of, body_size
+from yellowiron.specs.layout.rows.headings import Heading, bar_under, bars_of, body_size
 from yellowiron.specs.layout.rows.legends import without_keys
 from yellowiron.specs.layout.rows.lines import TextBlock, TextLine, bands
 from yellowiron.specs.layout.rows.prose import paragraphs_of, read_paragraph
@@ -23,6 +24,7 @@ from yellowiron.specs.layout.statement import (
     kind_of,
     split_inline,
     unit_in_label,
+    words_beside_numbers,
 )
 from yellowiron.specs.pages.words import Page
 
@@ -93,10 +95,16 @@ def _between(above: Sequence[TextLine], below: Sequence[TextLine]) -> float:
 def _read_row(row: Sequence[TextLine], state: ReaderState, number: int) -> None:
     pieces = [p for line in row for p in line.pieces]
     kinds = ["text"] * len(pieces) if _are_designations(pieces) else [kind_of(p) for p in pieces]
+    if _heads_a_section(state, pieces, kinds):
+        state.open_section(state.heading(max(line.bottom for line in row), pieces[0].text), tuple(pieces[1:]))
+        return
     ordered = sorted(row, key=lambda line: line.top)
     if len(row) == 2 and _are_names(*ordered):
         for line in ordered:
             state.add_heads(line.pieces)
+        return
+    if "value" in kinds and _are_heads(pieces, kinds, state):
+        state.heads.append(tuple(pieces))
         return
     if "value" not in kinds:
         inline = [s for p in pieces if (s := split_inline(p.bare))[0]]
@@ -229,3 +237,19 @@ def _label_orphans(line: TextLine, state: ReaderState) -> bool:
         )
     state.given = line
     return True
+
+
+def _heads_a_section(state: ReaderState, pieces: Sequence[TextPiece], kinds: Sequence[str]) -> bool:
+    """Whether a row on a heading's bar names the section and its columns by numbers: "Dimensions   2.5-m arm   3-m
+    arm"."""
+    if len(pieces) < 3 or kinds[0] != "text" or not set(kinds[1:]) <= {"value"} or not all(p.bold for p in pieces):
+        return False
+    named = all(words_beside_numbers(p.bare, read(p.bare)) for p in pieces[1:])
+    return named and bar_under(state.page, pieces[0], state.size) is not None
+
+
+def _are_heads(pieces: Sequence[TextPiece], kinds: Sequence[str], state: ReaderState) -> bool:
+    """Whether a row without a label names columns by numbers: "3.4-m arm   3.9-m arm" above their values."""
+    if state.data_since_heads or state.pending or len(pieces) < 2 or "text" in kinds:
+        return False
+    return all(words_beside_numbers(p.bare, read(p.bare)) for p in pieces)
