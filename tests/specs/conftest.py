@@ -19,5 +19,5 @@ def read_here() -> Iterator[None]:
         return getattr(importlib.import_module(module), name)(*args)
 
     with pytest.MonkeyPatch.context() as patch:
-        patch.setattr("yellowiron.specs.extraction.run_guarded", call)
+        patch.setattr("yellowiron.specs.reader.run_guarded", call)
         yield

@@ -10,7 +10,7 @@ from specs_layouts import canvas, put, template, wanted
 from yellowiron.specs import extract
 from yellowiron.specs.language.decimal_style import DecimalStyle
 from yellowiron.specs.language.units import printed_unit
-from yellowiron.specs.layout.grids.open_sided import merged
+from yellowiron.specs.layout.grids.partly_ruled import merged
 from yellowiron.specs.layout.statement import Statement
 from yellowiron.specs.machines import with_machines
 from yellowiron.specs.pages.strokes import DrawnRule
@@ -48,14 +48,6 @@ def test_rules_a_point_apart_are_one_only_where_they_touch() -> None:
     left, right = DrawnRule(40, 323.8, 544, 323.8), DrawnRule(919, 323.0, 1013, 323.0)
     assert merged([left, right]) == [right, left]
     assert merged([left, DrawnRule(546, 323.0, 600, 323.0)]) == [DrawnRule(40, 323.0, 600, 323.0)]
-
-
-def test_two_speeds_before_both_in_the_other_system() -> None:
-    claims = claims_of([stated("Travel speed (loaded/unloaded)", "23 km/h / 25 km/h (14.3 mph / 15.5 mph)")], _POINT)
-    assert [(c.words, c.quantity.value) for c in claims] == [
-        ("Travel speed (loaded)", 23.0),
-        ("Travel speed (unloaded)", 25.0),
-    ]
 
 
 def test_factors_with_slashes_in_the_order_of_their_initials() -> None:

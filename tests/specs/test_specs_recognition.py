@@ -13,13 +13,13 @@ from reportlab.lib.utils import ImageReader
 from specs_layouts import canvas, put, template, wanted
 from test_specs_ocr import ROWS, pictured
 
-from yellowiron.specs import extraction, ocr
+from yellowiron.specs import extraction, ocr, reader
 from yellowiron.specs.layout.router import statements_of
 from yellowiron.specs.layout.statement import Statement, looks_like_value
-from yellowiron.specs.ocr import Recognised, with_cubes
+from yellowiron.specs.ocr import with_cubes
 from yellowiron.specs.pages.words import Page, Word
-from yellowiron.specs.reader import read_sheet
-from yellowiron.specs.recognition.mending import levelled, with_whole_units, without_leaders
+from yellowiron.specs.reader import PageRead, read_sheet
+from yellowiron.specs.recognition.mending import levelled, without_leaders
 from yellowiron.specs.recognition.rapid import words_of_line
 from yellowiron.specs.recognition.spelling import spelled
 from yellowiron.specs.recognition.straighten import straightened
@@ -56,14 +56,6 @@ def test_letters_that_are_set_apart_are_of_one_word() -> None:
     assert [w.text for w in found] == ["TECHNICAL", "DATA"]
 
 
-def test_the_factors_of_a_product_are_one_word() -> None:
-    def texts(*seen: str) -> list[str]:
-        return [w.text for w in with_whole_units([word(text) for text in seen])]
-
-    assert texts("2752x", "1450x2205") == texts("2752", "x1450x2205") == ["2752x1450x2205"]
-    assert texts("13.00x24", "16PR") == ["13.00x24", "16PR"] and texts("(m", "m)") == ["(mm)"]
-
-
 @pytest.mark.parametrize("points", [1.0, 8.0])
 def test_a_page_whose_points_are_pixels_is_read_as_one_of_paper(
     tmp_path: Path, monkeypatch: pytest.MonkeyPatch, points: float
@@ -81,7 +73,7 @@ def test_a_page_whose_points_are_pixels_is_read_as_one_of_paper(
     ]
     read: list[Page] = []
     monkeypatch.setitem(ocr._WORDS, "rapidocr", lambda picture, scale: seen)
-    monkeypatch.setattr(ocr, "statements_of", lambda page: (read.append(page), statements_of(page))[1])
+    monkeypatch.setattr(reader, "statements_of", lambda page: (read.append(page), statements_of(page))[1])
     (page,) = ocr.recognise(tmp_path / "a.pdf", [1], "rapidocr")
     assert [(s.label, s.text) for s in page.statements] == [(a, f"{b} {c}") for a, b, c in rows]
     assert {w.size for w in read[0].words} == {9.0} and read[0].width == pytest.approx(595, rel=1e-6)
@@ -171,21 +163,21 @@ def test_another_program_says_only_what_the_first_leaves_open(tmp_path: Path, mo
         "tesseract": [("Wheelbase", "3950 mm"), ("Operating weight", "25 510 kg")],
     }
 
-    def recognise(path: Path, numbers: tuple[int, ...], program: str) -> list[Recognised]:
+    def recognise(path: Path, numbers: tuple[int, ...], program: str) -> list[PageRead]:
         rows = [
             Statement(1, n, label, text, (300.0, 130.0, 350.0, 140.0), f"{label} {text}")
             for n, (label, text) in enumerate(said[program])
         ]
-        return [Recognised(1, tuple(rows), "", ())]
+        return [PageRead(1, tuple(rows))]
 
-    guarded = extraction.run_guarded
+    guarded = reader.run_guarded
 
     def run(target: str, *given: object, **options: object) -> object:
         if target.endswith("ocr:recognise"):
             return recognise(*given)  # type: ignore[arg-type]
         return guarded(target, *given, **options)  # type: ignore[arg-type]
 
-    monkeypatch.setattr(extraction, "run_guarded", run)
+    monkeypatch.setattr(reader, "run_guarded", run)
     monkeypatch.setattr(ocr, "programs", lambda: ("rapidocr", "tesseract"))
     asked = template(wanted("Wheelbase", "length"), wanted("Operating Weight", "mass"), wanted("Tread", "length"))
     found = extraction.extract(asked, [pictured(tmp_path / "scan.pdf", ROWS)])

@@ -6,10 +6,9 @@ from collections.abc import Sequence
 from pathlib import Path
 from typing import Any
 
-from yellowiron.model.errors import OutputError, SheetError
+from yellowiron.model.errors import OutputError
 from yellowiron.model.specification import Evidence, SheetPage, Specifications
-from yellowiron.specs.reader import MEMORY_MB, RESIDENT_MB, TIMEOUT_S, check_file
-from yellowiron.support.guard import beat, run_guarded
+from yellowiron.specs.reader import check_file, in_child, opened_pages
 
 PICTURE_SCALE = 1.6
 """Pixels a point, less on a page that would be more than this many pixels:"""
@@ -42,17 +41,7 @@ def draw_evidence(sheets: Sequence[Path], specifications: Specifications, folder
         if not marks:
             continue
         check_file(Path(sheet))
-        pages = run_guarded(
-            "yellowiron.specs.evidence_images:draw_pages",
-            Path(sheet).resolve(),
-            marks,
-            folder.resolve(),
-            where=str(sheet),
-            error=SheetError,
-            timeout_s=TIMEOUT_S,
-            memory_mb=MEMORY_MB,
-            resident_mb=RESIDENT_MB,
-        )
+        pages = in_child("evidence_images:draw_pages", Path(sheet), marks, folder.resolve())
         written.extend(folder / name for name in pages)
     return tuple(written)
 
@@ -65,10 +54,7 @@ def page_pictures(sheets: Sequence[Path], specifications: Specifications) -> tup
     found: list[SheetPage] = []
     for sheet, numbers in wanted:
         if numbers:
-            found += run_guarded(
-                "yellowiron.specs.evidence_images:bare_pages", sheet.resolve(), numbers, MOST_BYTES // count,
-                where=str(sheet), error=SheetError, timeout_s=TIMEOUT_S, memory_mb=MEMORY_MB, resident_mb=RESIDENT_MB,
-            )  # fmt: skip
+            found += in_child("evidence_images:bare_pages", sheet, numbers, MOST_BYTES // count)
     return tuple(found)
 
 
@@ -76,26 +62,22 @@ def bare_pages(sheet: Path, numbers: Sequence[int], most: int) -> list[SheetPage
     """Pages of one sheet (runs in the guarded child), each in about `most` bytes."""
     import io
 
-    import pypdfium2
-
     pages: list[SheetPage] = []
-    document = pypdfium2.PdfDocument(sheet)
-    try:
-        for number in numbers:
-            beat(f"Drawing page {number} of {sheet.name}")
-            opened = document[number - 1]
-            size = opened.get_size()
-            for scale in _SCALES:
-                scale = min(scale, (_MOST_PIXELS / max(size[0] * size[1], 1.0)) ** 0.5)
-                buffer = io.BytesIO()
-                opened.render(scale=scale).to_pil().convert("RGB").save(buffer, "WEBP", quality=60, method=2)
-                if buffer.tell() <= most:
-                    break
-            opened.close()
-            pages.append(SheetPage(sheet.name, number, size, buffer.getvalue()))
-    finally:
-        document.close()
+    for number, opened in opened_pages(sheet, numbers, "Drawing"):
+        for scale in _SCALES:
+            buffer = io.BytesIO()
+            _drawn(opened, scale)[0].save(buffer, "WEBP", quality=60, method=2)
+            if buffer.tell() <= most:
+                break
+        pages.append(SheetPage(sheet.name, number, opened.get_size(), buffer.getvalue()))
     return pages
+
+
+def _drawn(page: Any, scale: float) -> tuple[Any, float]:
+    """A page's picture, at so many pixels a point or fewer, and how many these are."""
+    width, height = page.get_size()
+    scale = min(scale, (_MOST_PIXELS / max(width * height, 1.0)) ** 0.5)
+    return page.render(scale=scale).to_pil().convert("RGB"), scale
 
 
 def _marks(specifications: Specifications, file: str) -> list[Mark]:
@@ -114,27 +96,17 @@ def _marks(specifications: Specifications, file: str) -> list[Mark]:
 
 def draw_pages(sheet: Path, marks: Sequence[Mark], folder: Path) -> list[str]:
     """Draws the marked pages of one sheet (runs in the guarded child); the names of the files written."""
-    import pypdfium2
     from PIL import Image, ImageDraw
 
     names: list[str] = []
-    document = pypdfium2.PdfDocument(sheet)
-    try:
-        for number in sorted({mark[0] for mark in marks}):
-            beat(f"Drawing page {number} of {sheet.name}")
-            opened = document[number - 1]
-            width, height = opened.get_size()
-            scale = min(PICTURE_SCALE, (_MOST_PIXELS / max(width * height, 1.0)) ** 0.5)
-            page = opened.render(scale=scale).to_pil().convert("RGB")
-            opened.close()
-            image = Image.new("RGB", (page.width + 2 * PICTURE_MARGIN, page.height), (250, 250, 250))
-            image.paste(page, (PICTURE_MARGIN, 0))
-            _draw(ImageDraw.Draw(image, "RGBA"), page.width, scale, [m for m in marks if m[0] == number])
-            name = f"{sheet.stem}-page-{number}.png"
-            image.save(folder / name)
-            names.append(name)
-    finally:
-        document.close()
+    for number, opened in opened_pages(sheet, sorted({mark[0] for mark in marks}), "Drawing"):
+        page, scale = _drawn(opened, PICTURE_SCALE)
+        image = Image.new("RGB", (page.width + 2 * PICTURE_MARGIN, page.height), (250, 250, 250))
+        image.paste(page, (PICTURE_MARGIN, 0))
+        _draw(ImageDraw.Draw(image, "RGBA"), page.width, scale, [m for m in marks if m[0] == number])
+        name = f"{sheet.stem}-page-{number}.png"
+        image.save(folder / name)
+        names.append(name)
     return names
 
 

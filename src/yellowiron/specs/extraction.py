@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import functools
 from collections.abc import Callable, Mapping, Sequence
-from dataclasses import dataclass, replace
+from dataclasses import dataclass, field, replace
 from pathlib import Path
 from typing import Literal
 
@@ -14,24 +14,22 @@ from yellowiron.model.finding import Finding
 from yellowiron.model.specification import Specification, Specifications
 from yellowiron.model.template import Template, Wanted
 from yellowiron.specs import ocr
-from yellowiron.specs.columns import configured
+from yellowiron.specs.columns import configured, of_configuration
 from yellowiron.specs.findings import ignored_phrases, model_cost, model_failure, unread_pages, unusable_answers
 from yellowiron.specs.language.decimal_style import DecimalStyle, decimal_style
 from yellowiron.specs.layout.nearest import Near
 from yellowiron.specs.llm.agreement import Asked, agreed
 from yellowiron.specs.llm.page_reader import Reading, pages_of, read_pages
 from yellowiron.specs.machines import of_others, of_sisters, several, with_machines
-from yellowiron.specs.reader import MEMORY_MB, RESIDENT_MB, TIMEOUT_S, Sheet, check_file
-from yellowiron.specs.values.claims import Claim, claims_of
-from yellowiron.specs.values.cross_check import second_reading, stands_in
-from yellowiron.specs.values.decision import Column, Sheets, decide, missing, placed, quantity_words, unreadable
+from yellowiron.specs.reader import TIMEOUT_S, PageRead, Sheet, check_file, in_child
+from yellowiron.specs.values.claims import Claim, claims_of, in_only_unit
+from yellowiron.specs.values.cross_check import Nearby, second_reading, stands_in
+from yellowiron.specs.values.decision import Column, Sheets, decide, missing, placed, quantity_words
 from yellowiron.specs.values.matching import match
-from yellowiron.specs.values.only_unit import in_only_unit
-from yellowiron.specs.values.qualifiers import of_configuration
 from yellowiron.specs.values.requested import asked
 from yellowiron.specs.values.tolerances import PICTURED
 from yellowiron.specs.values.values_in_labels import in_label
-from yellowiron.support.guard import Wording, run_guarded
+from yellowiron.support.guard import Wording
 
 Extractor = Literal["rules", "llm", "both"]
 
@@ -70,17 +68,7 @@ def read(path: Path, *, progress: Callable[[str], None] = lambda words: None) ->
     """A PDF's statements, read in guarded child processes; `progress` is told each page."""
     path = Path(path)
     check_file(path)
-    sheet = run_guarded(
-        "yellowiron.specs.reader:read_sheet",
-        path.resolve(),
-        where=str(path),
-        error=SheetError,
-        timeout_s=TIMEOUT_S,
-        memory_mb=MEMORY_MB,
-        resident_mb=RESIDENT_MB,
-        progress=progress,
-    )
-    assert isinstance(sheet, Sheet)
+    sheet: Sheet = in_child("reader:read_sheet", path, progress=progress)
     readings = [_recognised(sheet, path, program, progress) for program in (ocr.programs() if sheet.silent else ())]
     first, *others = [one for one in readings if one.recognised] or readings[-1:] or [sheet]
     return replace(first, again=others[0] if others else None)
@@ -90,19 +78,8 @@ def _recognised(sheet: Sheet, path: Path, program: str, progress: Callable[[str]
     """The sheet with what a recognition program makes of its silent pages, in a child of its own: a picture that breaks
     it costs no page that has text."""
     try:
-        pages: list[ocr.Recognised] = run_guarded(
-            "yellowiron.specs.ocr:recognise",
-            path.resolve(),
-            sheet.silent,
-            program,
-            where=str(path),
-            error=SheetError,
-            timeout_s=2.0 * TIMEOUT_S,
-            memory_mb=MEMORY_MB,
-            resident_mb=ocr.RESIDENT_MB,
-            wording=Wording("Text recognition"),
-            progress=progress,
-        )
+        bounds = {"timeout_s": 2.0 * TIMEOUT_S, "resident_mb": ocr.RESIDENT_MB, "wording": Wording("Text recognition")}
+        pages: list[PageRead] = in_child("ocr:recognise", path, sheet.silent, program, progress=progress, **bounds)
     except SheetError as error:
         return replace(sheet, unrecognised=f"{error.message} ({error.hint})")
     known = {page.number: page.titles for page in pages}
@@ -131,18 +108,14 @@ def from_sheets(
     """`extract` on sheets that are already read."""
     wanted = asked(template)
     sheets = [_numbered(sheet, number) for number, sheet in enumerate(sheets)]
-    claimed, known = _claimed(sheets, config), _known(sheets)
-    style = sheets[0].style if sheets else "point"
-    values = _by_rules(wanted, claimed.printed, known, config, style)
-    values, nearby = second_reading(wanted, values, claimed.near, known, config)
+    (printed, recognised), known = _claimed(sheets, config), _known(sheets)
+    values, nearby = _decided(wanted, printed, known, config, sheets)
     # Words read from a picture have a say only where no text has, another program's only where those have none.
-    values |= _of_words_recognised(wanted, values, claimed, known, config, style)
-    values = _of_pictures(wanted, values, sheets)
+    values = _with_recognised(wanted, values, recognised, known, config, sheets)
     if any(sheet.again for sheet in sheets):
         again = [sheet.again or sheet for sheet in sheets]
-        values |= _of_words_recognised(wanted, values, _claimed(again, config), _known(again), config, again[0].style)
-        values = _of_pictures(wanted, values, again)
-    claims = [*claimed.printed, *claimed.recognised]
+        values = _with_recognised(wanted, values, _claimed(again, config)[1], _known(again), config, again)
+    claims = [*printed.claims, *recognised.claims]
     findings = [*unread_pages(sheets), *ignored_phrases(config, claims, known, sheets)]
     if extractor != "rules":
         if extractor == "llm":
@@ -163,20 +136,20 @@ def from_sheets(
     return Specifications(values if config else _of_several(values, sheets), tuple(findings))
 
 
-def _of_words_recognised(
+def _with_recognised(
     wanted: Sequence[Wanted],
     values: Mapping[str, Specification],
-    claimed: _Claimed,
+    said: _Claimed,
     known: Sheets,
     config: str,
-    style: DecimalStyle,
+    sheets: Sequence[Sheet],
 ) -> dict[str, Specification]:
-    """What pictures of pages say of the values that are missing; what they say of the others is theirs."""
-    if not claimed.recognised and not any(near for near, _ in claimed.near_recognised):
-        return {}
-    found = _by_rules(wanted, claimed.recognised, known, config, style)
-    found, _ = second_reading(wanted, found, claimed.near_recognised, known, config)
-    return {name: one for name, one in found.items() if values[name].status in ("missing", "unreadable")}
+    """The values, those that are missing as pictures of pages say; what these say of the others is theirs."""
+    found = dict(values)
+    if said.claims or any(near for near, _ in said.near):
+        seen, _ = _decided(wanted, said, known, config, sheets)
+        found |= {name: one for name, one in seen.items() if values[name].status in ("missing", "unreadable")}
+    return _of_pictures(wanted, found, sheets)
 
 
 def _numbered(sheet: Sheet, number: int) -> Sheet:
@@ -191,29 +164,22 @@ def _numbered(sheet: Sheet, number: int) -> Sheet:
 
 @dataclass(frozen=True)
 class _Claimed:
-    """What the sheets claim of the configuration that is meant: `printed` in their text, `recognised` on pictures of
-    pages; `near`, `near_recognised`: of each sheet the second reading's values that stand in no cell of another
-    configuration."""
+    """What sheets claim of the configuration that is meant; `near`: of each sheet the second reading's values that
+    stand in no cell of another configuration, with how it writes decimals."""
 
-    printed: Sequence[Claim]
-    recognised: Sequence[Claim]
-    near: Sequence[tuple[Sequence[Near], DecimalStyle]]
-    near_recognised: Sequence[tuple[Sequence[Near], DecimalStyle]]
+    claims: list[Claim] = field(default_factory=list)
+    near: list[tuple[Sequence[Near], DecimalStyle]] = field(default_factory=list)
 
 
-def _claimed(sheets: Sequence[Sheet], config: str) -> _Claimed:
-    printed: list[Claim] = []
-    recognised: list[Claim] = []
-    near: list[tuple[list[Near], DecimalStyle]] = []
-    near_recognised: list[tuple[list[Near], DecimalStyle]] = []
+def _claimed(sheets: Sequence[Sheet], config: str) -> tuple[_Claimed, _Claimed]:
+    """What the sheets claim in their text, and on pictures of pages."""
+    both = _Claimed(), _Claimed()
     for sheet in sheets:
         other = of_others(sheet.titles, config)
         sisters = of_sisters(sheet.titles, config)
         read = [s for s in sheet.statements if s.page not in other and (s.column or s.page not in sisters)]
         every = claims_of(read, sheet.style)
         meant = configured(of_configuration([*every, *in_only_unit(every)], config), config)
-        for claim in meant:
-            (recognised if claim.statement.guessed else printed).append(claim)
         kept = {claim.statement for claim in meant}
         others = [claim.statement for claim in every if claim.statement not in kept]
         other |= sisters
@@ -223,9 +189,10 @@ def _claimed(sheets: Sequence[Sheet], config: str) -> _Claimed:
             if n.statement.page not in other and not any(stands_in(n.statement, s) for s in others)
         ]
         own += [Near("cell", statement) for statement in dict.fromkeys(c.statement for c in meant)]
-        near.append(([n for n in own if not n.statement.guessed], sheet.style))
-        near_recognised.append(([n for n in own if n.statement.guessed], sheet.style))
-    return _Claimed(printed, recognised, near, near_recognised)
+        for is_guess, part in enumerate(both):
+            part.claims.extend(c for c in meant if c.statement.guessed == is_guess)
+            part.near.append(([n for n in own if n.statement.guessed == is_guess], sheet.style))
+    return both
 
 
 def _known(sheets: Sequence[Sheet]) -> Sheets:
@@ -269,22 +236,23 @@ def _of_pictures(
     for one in wanted:
         found[one.name] = _at_most_review(found[one.name], pictures)
         if silent and found[one.name].status == "missing":
-            found[one.name] = unreadable(one, silent)
+            found[one.name] = missing(one, "unreadable", f"{', '.join(silent)} has no text that can be read")
     return found
 
 
-def _by_rules(
-    wanted: Sequence[Wanted], claims: Sequence[Claim], known: Sheets, config: str, style: DecimalStyle
-) -> dict[str, Specification]:
-    """Every wanted value by its words."""
-    matches = match(claims, [w for w in wanted if w.in_label_of is None])
-    values: dict[str, Specification] = {}
-    for one in wanted:
-        if one.in_label_of is not None:
-            values[one.name] = in_label(one, matches.get(one.in_label_of, []), known, style)
-        else:
-            values[one.name] = decide(one, matches.get(one.name, []), known, config)
-    return values
+def _decided(
+    wanted: Sequence[Wanted], said: _Claimed, known: Sheets, config: str, sheets: Sequence[Sheet]
+) -> tuple[dict[str, Specification], dict[str, Nearby]]:
+    """Every wanted value by its words, with what the second reading says of it, and what that brought."""
+    style: DecimalStyle = sheets[0].style if sheets else "point"
+    matches = match(said.claims, [w for w in wanted if w.in_label_of is None])
+    values = {
+        one.name: decide(one, matches.get(one.name, []), known, config)
+        if one.in_label_of is None
+        else in_label(one, matches.get(one.in_label_of, []), known, style)
+        for one in wanted
+    }
+    return second_reading(wanted, values, said.near, known, config)
 
 
 def _of_several(values: Mapping[str, Specification], sheets: Sequence[Sheet]) -> dict[str, Specification]:

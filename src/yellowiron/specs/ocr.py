@@ -8,26 +8,22 @@ from __future__ import annotations
 import re
 import statistics
 from collections.abc import Callable, Sequence
-from dataclasses import dataclass, replace
+from dataclasses import replace
 from pathlib import Path
 
 import numpy as np
 from PIL import Image
 
 from yellowiron.model.errors import SheetError
-from yellowiron.specs.layout.nearest import Near, nearest_of
-from yellowiron.specs.layout.router import statements_of
 from yellowiron.specs.layout.statement import Statement
-from yellowiron.specs.machines import titled
 from yellowiron.specs.pages.picture_rules import rules_of_picture
 from yellowiron.specs.pages.strokes import SNAP, Box, DrawnRule
 from yellowiron.specs.pages.words import Page, Word, read_page
+from yellowiron.specs.reader import PageRead, opened_pages, read_words
 from yellowiron.specs.recognition import rapid, tesseract
 from yellowiron.specs.recognition.mending import levelled
 from yellowiron.specs.recognition.spelling import spelled
 from yellowiron.specs.recognition.straighten import straightened
-from yellowiron.specs.values.stated_configuration import Stated, stated_in
-from yellowiron.support.guard import beat
 
 MOST_PAGES = 40
 """Pages of one file that are recognised, the first ones: each takes seconds."""
@@ -53,18 +49,6 @@ _SQUARE = re.compile(r"(?<=\d )m[AÂ]?[²2](?!\w)|(?<=\d)m[AÂ]?²")
 """A square metre, or what a cubic one looks like."""
 
 
-@dataclass(frozen=True)
-class Recognised:
-    """What was recognised on one page (`number` counts from 1); `titles`: the models that its title names."""
-
-    number: int
-    statements: tuple[Statement, ...]
-    text: str
-    stated: tuple[Stated, ...]
-    near: tuple[Near, ...] = ()
-    titles: frozenset[str] = frozenset()
-
-
 def programs() -> tuple[str, ...]:
     """The recognition programs that are installed, the best one first."""
     there = {"rapidocr": rapid.installed(), "tesseract": tesseract.program() is not None}
@@ -77,30 +61,23 @@ def picture_programs() -> tuple[str, ...]:
     return (*programs(), tesseract.program() or "", *languages)
 
 
-def recognise(path: Path, numbers: Sequence[int], program: str) -> list[Recognised]:
-    """The statements of pages (`numbers` count from 1) whose text is pictures or outlines, all or in part, through one
-    of the `programs`; a page on which nothing is recognised is left out. Runs in a guarded child. `SheetError` where
-    the program fails."""
-    import pypdfium2
-
-    found: list[Recognised] = []
+def recognise(path: Path, numbers: Sequence[int], program: str) -> list[PageRead]:
+    """What pages say (`numbers` count from 1) whose text is pictures or outlines, all or in part, through one of the
+    `programs`; a page on which nothing is recognised is left out. Runs in a guarded child. `SheetError` where the
+    program fails."""
+    found: list[PageRead] = []
     failure: SheetError | None = None
-    document = pypdfium2.PdfDocument(path)
-    try:
-        for number in numbers[:MOST_PAGES]:
-            beat(f"Recognising the text of page {number} of {path.name}")
-            try:
-                page, unit = _page(document[number - 1], number, program)
-            except SheetError as error:  # a page that takes too long costs no other
-                failure = error
-                continue
-            if page.readable:
-                text = " ".join(w.text for w in page.words)
-                statements = tuple(_placed(s, unit) for s in with_cubes(statements_of(page)))
-                near = tuple(replace(n, statement=_placed(n.statement, unit)) for n in nearest_of(page))
-                found.append(Recognised(number, statements, text, tuple(stated_in(text, number)), near, titled(page)))
-    finally:
-        document.close()
+    for number, opened in opened_pages(path, numbers[:MOST_PAGES], "Recognising the text of"):
+        try:
+            page, unit = _page(opened, number, program)
+        except SheetError as error:  # a page that takes too long costs no other
+            failure = error
+            continue
+        if page.readable:
+            one = read_words(page)
+            statements = tuple(_placed(s, unit) for s in with_cubes(one.statements))
+            near = tuple(replace(n, statement=_placed(n.statement, unit)) for n in one.near)
+            found.append(replace(one, statements=statements, near=near))
     if failure is not None and not found:
         raise failure
     return found

@@ -4,9 +4,11 @@ from __future__ import annotations
 
 import re
 import time
-from collections.abc import Sequence
+from collections.abc import Iterable, Iterator, Sequence
+from contextlib import closing
 from dataclasses import dataclass, replace
 from pathlib import Path
+from typing import Any
 
 from yellowiron.model.errors import SheetError
 from yellowiron.specs.language.decimal_style import DecimalStyle, decimal_style
@@ -21,7 +23,7 @@ from yellowiron.specs.machines import titled
 from yellowiron.specs.pages.words import Page, read_page
 from yellowiron.specs.values.stated_configuration import Stated, stated_in
 from yellowiron.support.files.inputs import require_file
-from yellowiron.support.guard import beat
+from yellowiron.support.guard import beat, run_guarded
 
 TIMEOUT_S = 60.0
 """For one page; the reader gives a sign of life at each."""
@@ -32,6 +34,19 @@ _MOST_S = 600.0
 """For a whole file."""
 _MOST_PAGES = 5000
 _MOST_BYTES = 512 * 1024 * 1024
+
+
+@dataclass(frozen=True)
+class PageRead:
+    """What a page says (`number` counts from 1); `titles`: the models that its title names."""
+
+    number: int
+    statements: tuple[Statement, ...] = ()
+    text: str = ""
+    stated: tuple[Stated, ...] = ()
+    near: tuple[Near, ...] = ()
+    titles: frozenset[str] = frozenset()
+    cells: tuple[Cell, ...] = ()
 
 
 @dataclass(frozen=True)
@@ -65,72 +80,78 @@ def read_sheet(path: Path) -> Sheet:
 
     check_file(path)
     try:
-        document = pypdfium2.PdfDocument(path)
+        with closing(pypdfium2.PdfDocument(path)) as document:
+            count = len(document)
     except pypdfium2.PdfiumError as error:
         raise _open_error(path, str(error)) from error
+    only = "Give the pages with the specifications only."
+    if count > _MOST_PAGES:
+        raise SheetError(f"{path.name} has {count} pages, more than {_MOST_PAGES}", where=str(path), hint=only)
+    reads: list[PageRead] = []
+    silent: list[int] = []
+    pictured: list[int] = []
+    begin = time.monotonic()
     try:
-        if len(document) > _MOST_PAGES:
-            raise SheetError(
-                f"{path.name} has {len(document)} pages, more than {_MOST_PAGES}",
-                where=str(path),
-                hint="Give the pages with the specifications only.",
-            )
-        statements: list[Statement] = []
-        silent: list[int] = []
-        pictured: list[int] = []
-        texts: list[str] = []
-        stated: list[Stated] = []
-        near: list[Near] = []
-        cells: list[Cell] = []
-        titles: list[frozenset[str]] = []
-        begin = time.monotonic()
-        for number in range(1, len(document) + 1):
-            beat(f"Reading page {number} of {len(document)} of {path.name}")
+        for number, opened in opened_pages(path, range(1, count + 1), "Reading", of=f" of {count}"):
             if time.monotonic() - begin > _MOST_S:
-                raise SheetError(
-                    f"{path.name} takes more than {_MOST_S:g} s: stopped at page {number} of {len(document)}",
-                    where=str(path),
-                    hint="Give the pages with the specifications only.",
-                )
-            try:
-                # Closed at once: the pages of a manual would fill the memory.
-                opened = document[number - 1]
-                try:
-                    page = read_page(opened, number)
-                finally:
-                    opened.close()
-            except pypdfium2.PdfiumError as error:
-                raise SheetError(
-                    f"Page {number} of {path.name} cannot be read: the file is damaged",
-                    where=f"{path}, page {number}",
-                    hint="Get the file again, or print it to a new PDF.",
-                ) from error
-            titles.append(titled(page))
-            if page.readable:
-                statements.extend(proven(statements_of(page), page))
-                texts.append(" ".join(w.text for w in page.words))
-                stated.extend(stated_in(texts[-1], number))
-                near.extend(nearest_of(page))
-                cells.extend(cells_of(page))
+                late = f"{path.name} takes more than {_MOST_S:g} s: stopped at page {number} of {count}"
+                raise SheetError(late, where=str(path), hint=only)
+            page = read_page(opened, number)
+            one = read_words(page)
+            reads.append(replace(one, statements=tuple(proven(one.statements, page))))
             if page.partly or (not page.readable and (page.images or page.characters or page.rules)):
                 silent.append(number)
             elif page.images:
                 pictured.append(number)
-        if not any(map(_states, statements)):  # typed are a head and a foot: what they stand around is a picture
-            silent = sorted([*silent, *pictured])
-        return Sheet(
-            file=path.name,
-            pages=len(document),
-            statements=tuple(with_labels(statements)),
-            silent=tuple(silent),
-            style=decimal_style(texts),
-            stated=tuple(stated),
-            near=tuple(near),
-            cells=tuple(cells),
-            titles=tuple(titles),
-        )
-    finally:
-        document.close()
+    except pypdfium2.PdfiumError as error:
+        raise SheetError(
+            f"Page {len(reads) + 1} of {path.name} cannot be read: the file is damaged",
+            where=f"{path}, page {len(reads) + 1}",
+            hint="Get the file again, or print it to a new PDF.",
+        ) from error
+    statements = [s for one in reads for s in one.statements]
+    if not any(map(_states, statements)):  # typed are a head and a foot: what they stand around is a picture
+        silent = sorted([*silent, *pictured])
+    return Sheet(
+        file=path.name,
+        pages=count,
+        statements=tuple(with_labels(statements)),
+        silent=tuple(silent),
+        style=decimal_style([one.text for one in reads]),
+        stated=tuple(s for one in reads for s in one.stated),
+        near=tuple(n for one in reads for n in one.near),
+        cells=tuple(c for one in reads for c in one.cells),
+        titles=tuple(one.titles for one in reads),
+    )
+
+
+def opened_pages(path: Path, numbers: Iterable[int], doing: str, of: str = "") -> Iterator[tuple[int, Any]]:
+    """The pages of a PDF in turn, each closed at once: those of a manual would fill the memory."""
+    import pypdfium2
+
+    with closing(pypdfium2.PdfDocument(path)) as document:
+        for number in numbers:
+            beat(f"{doing} page {number}{of} of {path.name}")
+            with closing(document[number - 1]) as page:
+                yield number, page
+
+
+def read_words(page: Page) -> PageRead:
+    """What the words of a page say; its title alone where they mean nothing."""
+    if not page.readable:
+        return PageRead(page.number, titles=titled(page))
+    text = " ".join(w.text for w in page.words)
+    stated = stated_in(text, page.number)
+    return PageRead(
+        page.number, tuple(statements_of(page)), text, stated, nearest_of(page), titled(page), cells_of(page)
+    )
+
+
+def in_child(target: str, path: Path, *arguments: Any, **options: Any) -> Any:
+    """The result of `module:function` of this package on a PDF, called in a guarded child process."""
+    bounds = {"timeout_s": TIMEOUT_S, "memory_mb": MEMORY_MB, "resident_mb": RESIDENT_MB} | options
+    target = f"yellowiron.specs.{target}"
+    return run_guarded(target, path.resolve(), *arguments, where=str(path), error=SheetError, **bounds)
 
 
 def _states(statement: Statement) -> bool:

@@ -11,7 +11,8 @@ from importlib import resources
 from typing import Any
 
 
-def _data(name: str) -> Mapping[str, Any]:
+def data(name: str) -> Mapping[str, Any]:
+    """A file of words that come with the package."""
     text = resources.files("yellowiron.specs").joinpath(f"data/{name}.json").read_text(encoding="utf-8")
     return dict(json.loads(text))
 
@@ -20,7 +21,7 @@ def _words(lines: Iterable[str]) -> frozenset[str]:
     return frozenset(word for line in lines for word in line.split())
 
 
-_DATA = _data("words")
+_DATA = data("words")
 _STOP = _words(_DATA["stop"])
 """Words that say nothing of which property is meant."""
 _ALIAS = {word: meant for meant, spellings in _DATA["alias"].items() for word in spellings.split()}
@@ -108,7 +109,7 @@ def _lexicon() -> tuple[dict[tuple[str, ...], tuple[str, ...]], dict[tuple[str, 
     return hanging, others
 
 
-_LEXICON = _data("lexicon")
+_LEXICON = data("lexicon")
 _HANGING, _EXPRESSIONS = _lexicon()
 KNOWN = frozenset(word for table in (_HANGING, _EXPRESSIONS) for meant in table.values() for word in meant) | _words(
     _DATA["cjk"]

@@ -10,13 +10,12 @@ from yellowiron.specs.language.numbers import read
 from yellowiron.specs.layout.captions import captioned
 from yellowiron.specs.layout.grids.lattice import grids_of
 from yellowiron.specs.layout.grids.nested_rows import read_boxes
-from yellowiron.specs.layout.grids.open_sided import heads_above
+from yellowiron.specs.layout.grids.partly_ruled import heads_above
 from yellowiron.specs.layout.grids.table_grid import TableGrid
 from yellowiron.specs.layout.grids.table_reader import columns_of, read_grid
 from yellowiron.specs.layout.rows.cells import footnotes_of
 from yellowiron.specs.layout.rows.headings import Heading, body_size
-from yellowiron.specs.layout.rows.key_columns import without_keys
-from yellowiron.specs.layout.rows.legends import key_legend, labelled, spelled
+from yellowiron.specs.layout.rows.legends import key_legend, labelled, spelled, without_keys
 from yellowiron.specs.layout.rows.lines import TextLine, blocks_of, lines_of
 from yellowiron.specs.layout.rows.row_reader import read_block
 from yellowiron.specs.layout.statement import (

@@ -20,14 +20,12 @@ from yellowiron.specs.layout.nearest import Near, Side
 from yellowiron.specs.layout.statement import Statement
 from yellowiron.specs.pages.strokes import Box
 from yellowiron.specs.values.claims import BARE_UNITS, Claim, claims_of, phrases_in
-from yellowiron.specs.values.contention import Match
-from yellowiron.specs.values.decision import Sheets, evidence_of, name_printed, printed, settled
+from yellowiron.specs.values.contention import Match, extremes
+from yellowiron.specs.values.decision import Sheets, candidate, evidence_of, name_printed, printed, settled, specified
 from yellowiron.specs.values.matching import match
 from yellowiron.specs.values.requested import check_hint, usual
-from yellowiron.specs.values.series import extremes
 from yellowiron.specs.values.tolerances import DOUBTFUL, SURE
 from yellowiron.support.text import with_article
-from yellowiron.support.units import SI_UNIT
 
 _UNITS = {**BARE_UNITS, "angle": ("°",), "time": ("s",)}
 _AROUND: tuple[Side, ...] = ("left", "above", "below")
@@ -87,7 +85,7 @@ def second_reading(
             if found[name].status == "conflict" and settles:
                 found[name], brought[name] = _to_review(one, side, sheets), Nearby(one, side)
             used = any(_is_there(evidence, seen) and not (listed and value != own) for seen, value in taken)
-            if not used and (found[name].status == "missing" or _is_nothing(asked[name], found[name])):
+            if not used and (found[name].status == "missing"):
                 found[name], brought[name] = _to_review(one, side, sheets), Nearby(one, side)
                 taken.append((evidence, own))
     return found, brought
@@ -118,11 +116,6 @@ def _undisputed(
             if sure and not _differ(sure):
                 found[side][name] = sure[0]
     return found, chosen
-
-
-def _is_nothing(wanted: Wanted, value: Specification) -> bool:
-    """Whether what the rules bring for review says of a thing that there is none: a travel speed of 0 mph."""
-    return value.status == "review" and value.value == 0.0 and not usual(wanted, 0.0)
 
 
 def _differ(matches: Sequence[Match]) -> bool:
@@ -214,17 +207,16 @@ def _to_review(one: Match, side: Side, sheets: Sheets) -> Specification:
         why = f"the sheet prints no unit for '{quantity.text}': in {quantity.unit} it would be usual"
     elif side == "cell":
         why = f"that '{name_printed(one)}' is {with_article(wanted.dimension.replace('_', ' '))}, only its unit says"
-    return Specification(
-        name=wanted.name,
-        value=quantity.si_value,
-        unit=SI_UNIT[wanted.dimension],
-        status="review",
+    return specified(
+        wanted,
+        quantity.si_value,
+        "review",
         evidence=evidence_of(one, sheets),
         text=printed(quantity),
         confidence=_NEARBY,
         reason=why,
         hint=check_hint(wanted.name),
-        candidates=(_candidate(wanted, one, quantity, sheets),),
+        candidates=(_candidate(one, quantity, sheets),),
     )
 
 
@@ -235,16 +227,10 @@ def _doubted(value: Specification, one: Match, quantity: Quantity, sheets: Sheet
         confidence=min(value.confidence, DOUBTFUL),
         reason=f"'{name_printed(one)}' stands beside '{quantity.text}', too; {value.reason}",
         hint=check_hint(value.name),
-        candidates=(*value.candidates, _candidate(one.wanted, one, quantity, sheets)),
+        candidates=(*value.candidates, _candidate(one, quantity, sheets)),
     )
 
 
-def _candidate(wanted: Wanted, one: Match, quantity: Quantity, sheets: Sheets) -> Candidate:
-    return Candidate(
-        value=quantity.si_value,
-        unit=SI_UNIT[wanted.dimension],
-        evidence=evidence_of(one, sheets),
-        configuration="",
-        confidence=_NEARBY,
-        reason=f"the words nearest to it are '{name_printed(one)}'",
-    )
+def _candidate(one: Match, quantity: Quantity, sheets: Sheets) -> Candidate:
+    reason = f"the words nearest to it are '{name_printed(one)}'"
+    return replace(candidate(one, sheets, quantity.si_value), configuration="", confidence=_NEARBY, reason=reason)

@@ -5,8 +5,9 @@ from __future__ import annotations
 import re
 from collections.abc import Mapping, Sequence
 from dataclasses import dataclass, replace
+from typing import Any
 
-from yellowiron.model.specification import Candidate, Evidence, Specification
+from yellowiron.model.specification import Candidate, Evidence, Specification, Status
 from yellowiron.model.template import Wanted
 from yellowiron.specs.language.decimal_style import DecimalStyle
 from yellowiron.specs.language.numbers import read
@@ -15,9 +16,8 @@ from yellowiron.specs.language.vocabulary import tokens
 from yellowiron.specs.layout.statement import Statement, words_beside_numbers
 from yellowiron.specs.pages.strokes import Box
 from yellowiron.specs.values.claims import Claim, configured_by, names_model, sisters_in, split_phrases, without_case
-from yellowiron.specs.values.contention import Match, of_another_place
+from yellowiron.specs.values.contention import Match, called, extremes, first_of_two, of_another_place
 from yellowiron.specs.values.requested import check_hint, hint_for, usual
-from yellowiron.specs.values.series import called, extremes, first_of_two
 from yellowiron.specs.values.stated_configuration import Stated
 from yellowiron.specs.values.tolerances import DOUBTFUL, SURE
 from yellowiron.support.units import SI_UNIT
@@ -88,11 +88,10 @@ def decide(wanted: Wanted, matches: Sequence[Match], sheets: Sheets, config: str
     if top.claim.ranged:
         doubt = doubt or "the sheet prints a range"
     value = quantity.si_value
-    return Specification(
-        name=wanted.name,
-        value=value,
-        unit=SI_UNIT[wanted.dimension],
-        status="review" if doubt else "ok",
+    return specified(
+        wanted,
+        value,
+        "review" if doubt else "ok",
         evidence=evidence_of(top, sheets),
         text=printed(quantity),
         example=all(m.claim.statement.example for m in group),
@@ -100,8 +99,8 @@ def decide(wanted: Wanted, matches: Sequence[Match], sheets: Sheets, config: str
         reason=doubt or _reason(top, group) + (f"; page {said.page} says: “{said.sentence}”" if said else ""),
         hint=check_hint(wanted.name) if doubt else "",
         candidates=(
-            _candidate(top, sheets, value),
-            *(_candidate(m, sheets, m.claim.quantity.si_value) for m in beside),
+            candidate(top, sheets, value),
+            *(candidate(m, sheets, m.claim.quantity.si_value) for m in beside),
         ),
     )
 
@@ -134,28 +133,14 @@ def words_left_over(found: Match) -> list[str]:
     return list(dict.fromkeys(said)) or list(found.rest)
 
 
-def missing(wanted: Wanted) -> Specification:
-    """The specification of a value that no sheet gives."""
-    return Specification(
-        name=wanted.name,
-        value=None,
-        unit=SI_UNIT[wanted.dimension],
-        status="missing",
-        reason="no sheet says it",
-        hint=hint_for(wanted),
-    )
+def specified(wanted: Wanted, value: float | None, status: Status, **said: Any) -> Specification:
+    """The specification of a wanted value, in SI; `said`: its other fields."""
+    return Specification(wanted.name, value, SI_UNIT[wanted.dimension], status, **said)
 
 
-def unreadable(wanted: Wanted, files: Sequence[str]) -> Specification:
-    """The specification of a value that may stand in a sheet without a text layer."""
-    return Specification(
-        name=wanted.name,
-        value=None,
-        unit=SI_UNIT[wanted.dimension],
-        status="unreadable",
-        reason=f"{', '.join(files)} has no text that can be read",
-        hint=hint_for(wanted),
-    )
+def missing(wanted: Wanted, status: Status = "missing", reason: str = "no sheet says it") -> Specification:
+    """The specification of a value that no sheet gives, or that may stand where none has text (`unreadable`)."""
+    return specified(wanted, None, status, reason=reason, hint=hint_for(wanted))
 
 
 def evidence_of(found: Match, sheets: Sheets) -> Evidence:
@@ -443,7 +428,8 @@ def _is_imperial(quantity: Quantity) -> bool:
     return quantity.printed is not None and quantity.printed.system == "imperial"
 
 
-def _candidate(found: Match, sheets: Sheets, value: float) -> Candidate:
+def candidate(found: Match, sheets: Sheets, value: float) -> Candidate:
+    """A match as one that a person may choose; `value` in SI."""
     return Candidate(
         value=value,
         unit=SI_UNIT[found.wanted.dimension],
@@ -456,7 +442,7 @@ def _candidate(found: Match, sheets: Sheets, value: float) -> Candidate:
 
 def _conflict(wanted: Wanted, groups: Sequence[Sequence[Match]], sheets: Sheets, config: str) -> Specification:
     candidates = tuple(
-        _candidate(one, sheets, settled(wanted, one.claim)[0].si_value)
+        candidate(one, sheets, settled(wanted, one.claim)[0].si_value)
         for one in (max(group, key=_preference) for group in groups)
     )
     names = [c.configuration for c in candidates if c.configuration]
@@ -467,11 +453,10 @@ def _conflict(wanted: Wanted, groups: Sequence[Sequence[Match]], sheets: Sheets,
             f'Choose a configuration with --config "{names[0]}" (or {" | ".join(names[1:4])}); or give the value with '
         )
         hint += f'--set "{wanted.name}=VALUE UNIT"'
-    return Specification(
-        name=wanted.name,
-        value=None,
-        unit=SI_UNIT[wanted.dimension],
-        status="conflict",
+    return specified(
+        wanted,
+        None,
+        "conflict",
         evidence=candidates[0].evidence,
         text=" | ".join(texts),
         reason=f"the sheet gives {len(groups)} values" + (f", and '{config}' does not choose" if config else ""),

@@ -38,7 +38,7 @@ def split_settings(texts: Iterable[str], template: Template) -> tuple[tuple[str,
         variant = variants.get(fold(name))
         if variant is None and name.startswith("--"):
             words = f"Machines of the type '{template.equipment_type}' have no {name.lstrip('-')} to choose"
-            raise YellowironError(words, where=name, hint="Leave the option out.")
+            raise _refused(words, "Leave the option out.", where=name)
         if variant is None:
             values.append(text)
         else:
@@ -60,17 +60,12 @@ def parse_settings(texts: Iterable[str], template: Template) -> Specifications:
         name, value = _halves(text)
         wanted = known.get(fold(name))
         if wanted is None:
-            raise YellowironError(
-                f"No specification or variant is called '{name}'", where=_WHERE, hint=_nearest(name, template, known)
-            )
+            raise _refused(f"No specification or variant is called '{name}'", _nearest(name, template, known))
         specification = _specification(wanted, value, text)
         earlier = found.get(wanted.name)
         if earlier is not None and earlier.value != specification.value:
-            raise YellowironError(
-                f"'{wanted.name}' is given twice: {earlier.text} and {specification.text}",
-                where=_WHERE,
-                hint="Keep one of the two.",
-            )
+            twice = f"'{wanted.name}' is given twice: {earlier.text} and {specification.text}"
+            raise _refused(twice, "Keep one of the two.")
         found[wanted.name] = specification
     return Specifications(found)
 
@@ -91,12 +86,9 @@ def accept(specifications: Specifications, names: Iterable[str], template: Templ
         else:
             found = specifications.get(name)
             if found is None or found.value is None or found.status not in ("review", "ok"):
-                review = [s.name for s in values.values() if s.status == "review"]
-                raise YellowironError(
-                    f"'{name}' is no value to review",
-                    where="--accept",
-                    hint=f"To review: {', '.join(review) or 'none'}. A conflict is settled with --set or --config.",
-                )
+                review = ", ".join(s.name for s in values.values() if s.status == "review") or "none"
+                hint = f"To review: {review}. A conflict is settled with --set or --config."
+                raise _refused(f"'{name}' is no value to review", hint, where="--accept")
             chosen = [found.name]
         for one in chosen:
             if values[one].status == "review":
@@ -133,18 +125,16 @@ def _rank(specification: Specification) -> int:
     return {"missing": 0, "unreadable": 1}.get(specification.status, 2)
 
 
+def _refused(message: str, hint: str, *, where: str = _WHERE) -> YellowironError:
+    return YellowironError(message, where=where, hint=hint)
+
+
 def _halves(text: str) -> tuple[str, str]:
     if not text.isprintable():
-        raise YellowironError(
-            "A value by hand has a line break, or a sign that cannot be seen",
-            where=_WHERE,
-            hint="Write it on one line.",
-        )
+        raise _refused("A value by hand has a line break, or a sign that cannot be seen", "Write it on one line.")
     name, equals, value = text.partition("=")
     if not equals or not name.strip() or not value.strip():
-        raise YellowironError(
-            f"'{text}' is not NAME=VALUE", where=_WHERE, hint='Write e.g. --set "Lift Cylinder Stroke=764 mm".'
-        )
+        raise _refused(f"'{text}' is not NAME=VALUE", 'Write e.g. --set "Lift Cylinder Stroke=764 mm".')
     return name.strip(), value.strip()
 
 
@@ -152,31 +142,19 @@ def _choice(variant: Variant, value: str) -> str:
     for choice in variant.choices:
         if fold(choice) == fold(value):
             return choice
-    raise YellowironError(
-        f"'{value}' is no choice of {variant.name}", where=_WHERE, hint=f"Choices: {', '.join(variant.choices)}."
-    )
+    raise _refused(f"'{value}' is no choice of {variant.name}", f"Choices: {', '.join(variant.choices)}.")
 
 
 def _specification(wanted: Wanted, value: str, text: str) -> Specification:
     unit = SI_UNIT[wanted.dimension]
     if "," in value or any(c.isdecimal() and not c.isascii() for c in value):
-        raise YellowironError(
-            f"'{value}' is not a number as it is written here", where=f"{_WHERE} {text}",
-            hint="Write digits 0 to 9, with a point for decimals and nothing between thousands: 1234.5 mm.",
-        )  # fmt: skip
+        hint = "Write digits 0 to 9, with a point for decimals and nothing between thousands: 1234.5 mm."
+        raise _refused(f"'{value}' is not a number as it is written here", hint, where=f"{_WHERE} {text}")
     quantity = parse_one(value, where=f"{_WHERE} {text}")
     if quantity.unit == "" and unit != "1":
-        raise YellowironError(
-            f"'{value}' has no unit, and {wanted.name} has one ({wanted.dimension})",
-            where=_WHERE,
-            hint=hint_for(wanted),
-        )
+        raise _refused(f"'{value}' has no unit, and {wanted.name} has one ({wanted.dimension})", hint_for(wanted))
     if quantity.unit != "" and quantity.si_unit != unit:
-        raise YellowironError(
-            f"'{value}' is not {with_article(wanted.dimension)}, as {wanted.name} is",
-            where=_WHERE,
-            hint=hint_for(wanted),
-        )
+        raise _refused(f"'{value}' is not {with_article(wanted.dimension)}, as {wanted.name} is", hint_for(wanted))
     _check_range(wanted, quantity.si_value, value, text)
     return Specification(
         name=wanted.name,
@@ -203,11 +181,8 @@ def _check_range(wanted: Wanted, value: float, text: str, setting: str) -> None:
         return
     start = "more than 0" if positive else f"from {display(least, unit)}"
     usual = f"{start} {'and at most' if positive else 'to'} {display(most, unit)}"
-    raise YellowironError(
-        f"'{text}' is outside what {wanted.name} can be",
-        where=f"{_WHERE} {setting}",
-        hint=f"It is {usual}; check number and unit.",
-    )
+    hint = f"It is {usual}; check number and unit."
+    raise _refused(f"'{text}' is outside what {wanted.name} can be", hint, where=f"{_WHERE} {setting}")
 
 
 def _nearest(name: str, template: Template, known: dict[str, Wanted]) -> str:

@@ -7,6 +7,7 @@ import itertools
 
 from yellowiron.model.specification import Specifications, fold
 from yellowiron.model.template import JointTemplate, Template, Wanted
+from yellowiron.specs.language.vocabulary import data
 
 _ANGULAR = {"revolute", "spherical"}
 
@@ -66,37 +67,16 @@ def missing_values(template: Template, specifications: Specifications) -> tuple[
 
 def _explained(wanted: Wanted) -> dict[str, str]:
     kind = wanted.dimension.replace("_", " ")
+    example, where = _HINTS.get(wanted.dimension, ("VALUE", "the specification tables"))
     return {
         "what": f"{kind}; {wanted.use.rstrip('.')}" if wanted.use else kind,
-        "where": wanted.where.rstrip(".") or _PLACES.get(wanted.dimension, "the specification tables"),
-        "set": f'"{wanted.name}={_EXAMPLES.get(wanted.dimension, "VALUE")}"',
+        "where": wanted.where.rstrip(".") or where,
+        "set": f'"{wanted.name}={example}"',
     }
 
 
-_PLACES = {
-    "length": "the dimensions or hydraulic cylinder tables",
-    "angle": "the dimensions, steering or axle tables",
-    "mass": "the weights or operating specifications",
-    "pressure": "the hydraulic system table",
-    "flow": "the hydraulic system table",
-    "volume": "the bucket or capacity tables",
-    "time": "the hydraulic cycle times",
-}
-_EXAMPLES = {
-    "length": "VALUE mm",
-    "angle": "VALUE deg",
-    "mass": "VALUE kg",
-    "pressure": "VALUE MPa",
-    "flow": "VALUE L/min",
-    "volume": "VALUE m3",
-    "force": "VALUE kN",
-    "torque": "VALUE N*m",
-    "power": "VALUE kW",
-    "speed": "VALUE km/h",
-    "angular_speed": "VALUE rpm",
-    "time": "VALUE s",
-    "count": "VALUE",
-}
+_HINTS = data("hints")
+"""By dimension how a value is written, and where makers print it."""
 
 
 @functools.lru_cache(maxsize=1024)

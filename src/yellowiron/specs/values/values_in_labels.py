@@ -3,7 +3,6 @@
 from __future__ import annotations
 
 from collections.abc import Sequence
-from dataclasses import replace
 
 from yellowiron.model.specification import Specification
 from yellowiron.model.template import Wanted
@@ -11,9 +10,8 @@ from yellowiron.specs.language.decimal_style import DecimalStyle
 from yellowiron.specs.language.numbers import read
 from yellowiron.specs.language.quantities import Quantity
 from yellowiron.specs.values.contention import Match
-from yellowiron.specs.values.decision import Sheets, evidence_of, missing
+from yellowiron.specs.values.decision import Sheets, evidence_of, missing, specified
 from yellowiron.specs.values.requested import usual
-from yellowiron.support.units import SI_UNIT
 
 
 def in_label(wanted: Wanted, matches: Sequence[Match], sheets: Sheets, style: DecimalStyle) -> Specification:
@@ -28,12 +26,11 @@ def in_label(wanted: Wanted, matches: Sequence[Match], sheets: Sheets, style: De
         return missing(wanted)
     first, quantity = found[0]
     if any(abs(other.si_value - quantity.si_value) > 1e-9 for _, other in found):
-        return replace(missing(wanted), reason="the labels of the sheets differ")
-    return Specification(
-        name=wanted.name,
-        value=quantity.si_value,
-        unit=SI_UNIT[wanted.dimension],
-        status="ok",
+        return missing(wanted, reason="the labels of the sheets differ")
+    return specified(
+        wanted,
+        quantity.si_value,
+        "ok",
         evidence=evidence_of(first, sheets),
         text=quantity.text,
         confidence=round(first.score, 3),

@@ -1,10 +1,10 @@
-"""Tables that are ruled in part: rows that no rule parts, a line for each in every cell, and columns without walls."""
+"""Tables that are ruled in part: rows, columns and sides without rules, heads on a bar above them."""
 
 from __future__ import annotations
 
 import itertools
 from collections import Counter
-from collections.abc import Iterator, Mapping
+from collections.abc import Iterable, Iterator, Mapping, Sequence
 from dataclasses import replace
 from itertools import pairwise
 
@@ -12,7 +12,9 @@ from yellowiron.specs.language.numbers import read
 from yellowiron.specs.language.quantities import same
 from yellowiron.specs.layout.grids.table_grid import Cell, TableGrid
 from yellowiron.specs.layout.rows.lines import TextLine, lines_of
-from yellowiron.specs.layout.statement import is_unit, kind_of, looks_like_value
+from yellowiron.specs.layout.statement import TextPiece, is_key, is_unit, kind_of, looks_like_value
+from yellowiron.specs.pages.strokes import SNAP, Box, DrawnRule
+from yellowiron.specs.pages.words import Word
 
 _LEVEL = 2.5
 """Points within which the lines of a row lie."""
@@ -114,36 +116,39 @@ def with_values_apart(grid: TableGrid) -> TableGrid:
 
 def _walled(cell: Cell, walls: Mapping[int, float]) -> Iterator[Cell]:
     """A cell cut at the walls that its pieces leave free and stand on both sides of."""
-    (left, top, right, bottom), (first, last) = cell.box, cell.columns
+    first, last = cell.columns
     for column in range(first + 1, last):
-        x = walls.get(column, left)
-        before = [p for p in cell.pieces if p.x1 <= x + 1]
-        after = [p for p in cell.pieces if p.x0 >= x - 1]
-        if left < x < right and before and after and len(before) + len(after) == len(cell.pieces):
-            lines = [tuple(lines_of([w for p in part for w in p.words])) for part in (before, after)]
-            yield replace(cell, box=(left, top, x, bottom), columns=(first, column), lines=lines[0])
-            rest = replace(cell, box=(x, top, right, bottom), columns=(column, last), lines=lines[1])
+        x = walls.get(column, cell.box[0])
+        before, after = [p for p in cell.pieces if p.x1 <= x + 1], [p for p in cell.pieces if p.x0 >= x - 1]
+        if cell.box[0] < x < cell.box[2] and before and after and len(before) + len(after) == len(cell.pieces):
+            part, rest = _cut(cell, x, (first, column), (column, last))
+            yield part
             yield from _walled(rest, walls)
             return
     yield cell
+
+
+def _cut(cell: Cell, x: float, before: tuple[int, int], after: tuple[int, int]) -> tuple[Cell, Cell]:
+    """The two parts of a cell with a wall at `x` between them, and the columns that they cover."""
+    left, top, right, bottom = cell.box
+    words = [w for p in cell.pieces for w in p.words]
+    lines = [tuple(lines_of([w for w in words if ((w.x0 + w.x1) / 2 < x) == is_left])) for is_left in (True, False)]
+    return (
+        replace(cell, box=(left, top, x, bottom), columns=before, lines=lines[0]),
+        replace(cell, box=(x, top, right, bottom), columns=after, lines=lines[1]),
+    )
 
 
 def _halves(cell: Cell) -> tuple[Cell, ...]:
     pieces = sorted(cell.pieces, key=lambda p: p.x0)
     ends = list(itertools.accumulate((p.x1 for p in pieces), max))
     gaps = [(after.x0 - end, index + 1) for index, (end, after) in enumerate(zip(ends, pieces[1:], strict=False))]
-    (left, top, right, bottom), (first, last) = cell.box, cell.columns
     wide, at = max(gaps, default=(0.0, 0))
-    if wide < _APART * (right - left) or not all(kind_of(p) == "text" for p in pieces[:at]):
+    parted = wide >= _APART * (cell.box[2] - cell.box[0]) and all(kind_of(p) == "text" for p in pieces[:at])
+    if not parted or not any(looks_like_value(p.bare) for p in pieces[at:]):
         return (cell,)
-    if not any(looks_like_value(p.bare) for p in pieces[at:]):
-        return (cell,)
-    x = (ends[at - 1] + pieces[at].x0) / 2
-    sides = ((left, top, x, bottom), (first, first + 1)), ((x, top, right, bottom), (first + 1, last))
-    return tuple(
-        replace(cell, box=box, columns=columns, lines=tuple(lines_of([w for p in part for w in p.words])))
-        for (box, columns), part in zip(sides, (pieces[:at], pieces[at:]), strict=True)
-    )
+    first, last = cell.columns
+    return _cut(cell, (ends[at - 1] + pieces[at].x0) / 2, (first, first + 1), (first + 1, last))
 
 
 def _gap(grid: TableGrid, column: int) -> float | None:
@@ -165,12 +170,107 @@ def _gap(grid: TableGrid, column: int) -> float | None:
 def _with_wall(grid: TableGrid, column: int, x: float) -> TableGrid:
     cells: list[Cell] = []
     for cell in grid.cells:
-        (left, top, right, bottom), (first, last) = cell.box, cell.columns
+        first, last = cell.columns
         if (first, last) == (column, column + 1) and not any(p.x0 < x < p.x1 for p in cell.pieces):
-            sides = ((left, top, x, bottom), (first, first + 1)), ((x, top, right, bottom), (last, last + 1))
-            for box, columns in sides:
-                words = [w for p in cell.pieces for w in p.words if box[0] <= (w.x0 + w.x1) / 2 < box[2]]
-                cells.append(replace(cell, box=box, columns=columns, lines=tuple(lines_of(words))))
+            cells += _cut(cell, x, (first, first + 1), (last, last + 1))
         else:
             cells.append(replace(cell, columns=(first + (first > column), last + (last > column))))
     return replace(grid, cells=tuple(cells), columns=grid.columns + 1)
+
+
+_HIGHEST = 60.0
+"""Points; what is higher is no row."""
+_FAR = 40.0
+"""Points between a row of heads and the table or the heading under it."""
+
+
+def side_walls(level: Sequence[DrawnRule], walls: Sequence[DrawnRule], words: Sequence[Word]) -> list[DrawnRule]:
+    """The walls that a table lacks at its left or right: between two rules that end level with each other and that
+    walls in between join, with words but no value left of the first wall, or with words right of the last one."""
+    found: list[DrawnRule] = []
+    rules, walls = merged(level), joined(walls)
+    for edge in ("x0", "x1"):
+        for above in rules:
+            x = getattr(above, edge)
+            below = next((r for r in rules if r.top > above.top + SNAP and abs(getattr(r, edge) - x) <= SNAP), None)
+            if below is not None and _lacks_wall(above, below, x, walls, words):
+                found.append(DrawnRule(x, above.top, x, below.top))
+    return found
+
+
+def _lacks_wall(
+    above: DrawnRule, below: DrawnRule, x: float, walls: Sequence[DrawnRule], words: Sequence[Word]
+) -> bool:
+    """Whether a table's row between two rules, or several that no rule parts, has words beside its walls, at `x`."""
+    x0, x1 = max(above.x0, below.x0), min(above.x1, below.x1)
+    joining = [
+        w.x0
+        for w in walls
+        if w.top <= above.top + SNAP and w.bottom >= below.top - SNAP and x0 - SNAP <= w.x0 <= x1 + SNAP
+    ]
+    inner = [wall for wall in joining if x0 + 10 < wall < x1 - 10]
+    if not inner or any(abs(x - wall) <= SNAP for wall in joining):
+        return False
+    high = below.top - above.top >= _HIGHEST
+    row = [w for w in words if above.top < (w.top + w.bottom) / 2 < below.top and x0 - 4 <= w.x0 <= x1]
+    before = [p for line in lines_of([w for w in row if w.x1 <= min(inner) + 1]) for p in line.pieces]
+    left = {kind_of(p) for p in before if p is not before[0] or not is_key(p.bare)}
+    right = {kind_of(p) for line in lines_of([w for w in row if w.x0 >= max(inner) - 1]) for p in line.pieces}
+    if high:
+        return len(inner) > 1 and "value" in right if x > max(inner) else len(inner) > 1 and "text" in left
+    return bool(right) if x > max(inner) else "text" in left and "value" not in left
+
+
+def merged(level: Iterable[DrawnRule], slack: float = SNAP) -> list[DrawnRule]:
+    """Rules at one height that touch are one; from top to bottom."""
+    found: list[DrawnRule] = []
+    for rule in sorted(level, key=lambda r: (round(r.top), r.x0)):
+        last = found[-1] if found else None
+        touch = last is not None and last.x0 - slack <= rule.x1 and rule.x0 <= last.x1 + slack
+        if last is not None and touch and abs(last.top - rule.top) <= 1:
+            found[-1] = DrawnRule(min(last.x0, rule.x0), last.top, max(last.x1, rule.x1), last.top)
+        else:
+            found.append(rule)
+    return sorted(found, key=lambda r: (r.top, r.x0))
+
+
+def joined(walls: Iterable[DrawnRule]) -> list[DrawnRule]:
+    """Walls at one place that touch are one, though drawn row by row."""
+    return [DrawnRule(w.top, w.x0, w.bottom, w.x1) for w in merged((_laid(w) for w in walls), slack=1.0)]
+
+
+def _laid(wall: DrawnRule) -> DrawnRule:
+    """A wall as a level rule, its height for its place."""
+    return DrawnRule(wall.top, wall.x0, wall.bottom, wall.x0)
+
+
+def heads_above(
+    lines: Sequence[TextLine], box: Box, columns: Sequence[tuple[float, float]], tables: Sequence[Box]
+) -> tuple[TextPiece, ...]:
+    """The heads that stand over a table's columns (left and right edges, without the labels') outside of it: the
+    nearest line above with words over two or more of them. Only headings, tables of the same width and their heads may
+    stand between."""
+    top = box[1]
+    same = [t for t in tables if abs(t[0] - box[0]) < 2 * SNAP and abs(t[2] - box[2]) < 2 * SNAP]
+    for line in sorted(lines, key=lambda one: -one.bottom):
+        if line.bottom > box[1] + 2 or line.x1 < box[0] or line.x0 > box[2]:
+            continue
+        nearest = max((t[3] for t in same if t[3] <= top + 2), default=float("-inf"))
+        while nearest > line.bottom and top - nearest <= _FAR + 20:
+            top = min(t[1] for t in same if t[3] == nearest)
+            nearest = max((t[3] for t in same if t[3] <= top + 2), default=float("-inf"))
+        if top - line.bottom > _FAR:
+            return ()
+        over = [p for p in line.pieces if _column_of(p, columns) is not None]
+        if len(over) >= 2 and len({_column_of(p, columns) for p in over}) == len(over):
+            return tuple(over)
+        if len(line.pieces) > 1 or kind_of(line.pieces[0]) != "text":
+            return ()
+        top = line.top
+    return ()
+
+
+def _column_of(piece: TextPiece, columns: Sequence[tuple[float, float]]) -> int | None:
+    """The column that a head stands over."""
+    middle = (piece.x0 + piece.x1) / 2
+    return next((i for i, (x0, x1) in enumerate(columns) if x0 <= middle <= x1 and x0 - 6 <= piece.x0), None)

@@ -7,32 +7,18 @@ from dataclasses import dataclass, field
 
 from yellowiron.specs.layout.rows.headings import Heading
 from yellowiron.specs.layout.rows.lines import TextBlock, TextLine
-from yellowiron.specs.layout.statement import TextPiece
+from yellowiron.specs.layout.statement import Statement, TextPiece
 from yellowiron.specs.pages.words import Page
-
-
-@dataclass(frozen=True)
-class TextColumn:
-    """A column of text on its page; `size` is the type size, in points, that most of its characters have."""
-
-    page: Page
-    block: TextBlock
-    size: float
-
-    @property
-    def labels_end(self) -> float:
-        """Left of this x the labels of rows begin."""
-        return self.block.x0 + 0.12 * (self.block.x1 - self.block.x0) + 4
-
-    def heading(self, bottom: float, text: str) -> Heading:
-        """A heading of this column, which ends at a height."""
-        return Heading(bottom, self.block.x0, self.block.x1, text)
 
 
 @dataclass
 class ReaderState:
-    """What the rows above say about the rows below."""
+    """A column of text that is read (`block`, on its `page`; `size`: the type size, in points, that most of its
+    characters have), what its rows say (`found`), and what they say about the rows below."""
 
+    page: Page
+    block: TextBlock
+    size: float
     section: str = ""
     unit: str = ""
     context: list[TextPiece] = field(default_factory=list)
@@ -43,6 +29,7 @@ class ReaderState:
     indented: bool = False
     values_in_row: int = 0
     headings: list[Heading] = field(default_factory=list)
+    found: list[Statement] = field(default_factory=list)
     orphans: list[int] = field(default_factory=list)
     nearer: bool = False
     """Whether the row that is read is nearer to the one above than to the next."""
@@ -56,6 +43,15 @@ class ReaderState:
     circuit: TextPiece | None = None
     """The label of a row of words that names a hydraulic circuit ("Pilot pump: gear type"), which holds for the rows
     after it up to the next row of words."""
+
+    @property
+    def labels_end(self) -> float:
+        """Left of this x the labels of rows begin."""
+        return self.block.x0 + 0.12 * (self.block.x1 - self.block.x0) + 4
+
+    def heading(self, bottom: float, text: str) -> Heading:
+        """A heading of this column, which ends at a height."""
+        return Heading(bottom, self.block.x0, self.block.x1, text)
 
     def open_section(self, heading: Heading, heads: tuple[TextPiece, ...]) -> None:
         """A heading ends what held above it; `heads` stand on its line."""

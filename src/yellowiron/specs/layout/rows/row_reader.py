@@ -9,12 +9,11 @@ from dataclasses import replace
 from yellowiron.specs.language.numbers import read
 from yellowiron.specs.layout.rows.cells import ValueCell, statement_of
 from yellowiron.specs.layout.rows.headings import Heading, bar_under, bars_of, body_size
-from yellowiron.specs.layout.rows.key_columns import without_keys
+from yellowiron.specs.layout.rows.legends import without_keys
 from yellowiron.specs.layout.rows.lines import TextBlock, TextLine, bands
 from yellowiron.specs.layout.rows.prose import paragraphs_of, read_paragraph
-from yellowiron.specs.layout.rows.reader_state import ReaderState, TextColumn
-from yellowiron.specs.layout.rows.row_bands import split_if_separate
-from yellowiron.specs.layout.rows.two_line_rows import unfolded
+from yellowiron.specs.layout.rows.reader_state import ReaderState
+from yellowiron.specs.layout.rows.row_bands import split_if_separate, unfolded
 from yellowiron.specs.layout.rows.value_rows import in_section, read_values
 from yellowiron.specs.layout.rows.word_rows import read_words
 from yellowiron.specs.layout.statement import (
@@ -34,15 +33,14 @@ def read_block(
     page: Page, block: TextBlock, first_row: int, section: str = ""
 ) -> tuple[list[Statement], list[Heading]]:
     """The statements of a column of text, and its headings. `first_row` numbers its rows."""
-    state = ReaderState(section=section)
-    found: list[Statement] = []
-    column = TextColumn(page, block, _type_size(page, block))
+    state = ReaderState(page, block, _type_size(page, block), section=section)
     paragraphs = paragraphs_of(block.lines)
     kept, beside = _without_paragraphs(block, paragraphs)
     rows = unfolded([r for band in bands(without_keys(kept), page.rules, bars_of(page, block), block.x0, block.x1)
                      for r in split_if_separate(band)])  # fmt: skip
     for index in range(len(rows)):
-        _read_nth_row(column, rows, index, state, first_row, found)
+        _read_nth_row(rows, index, state, first_row)
+    found = state.found
     for paragraph in paragraphs:
         headings = [h for h in state.headings if h.bottom <= paragraph[0].top + 2]
         heading = beside[paragraph[0].pieces[-1]] or (headings[-1].text if headings else section)
@@ -71,44 +69,34 @@ def _without_paragraphs(
     return [TextLine(pieces) for pieces in kept if pieces], beside
 
 
-def _read_nth_row(
-    column: TextColumn,
-    rows: Sequence[Sequence[TextLine]],
-    index: int,
-    state: ReaderState,
-    first_row: int,
-    found: list[Statement],
-) -> None:
+def _read_nth_row(rows: Sequence[Sequence[TextLine]], index: int, state: ReaderState, first_row: int) -> None:
     """Reads a row: more of the label above, labels over their values, or labels beside them."""
     row, following = rows[index], rows[index + 1 : index + 2]
-    if _continue_label(row, following[0] if following else None, state, found):
+    if _continue_label(row, following[0] if following else None, state):
         return
-    before = len(found)
+    before = len(state.found)
     number = first_row + before + index
     state.nearer = bool(index and following) and _between(rows[index - 1], row) < _between(row, following[0])
     ordered = sorted(row, key=lambda line: line.top)
     if len(row) == 2 and _captioned(ordered[:1], ordered[1:], ()):
-        _read_captions(column.page, ordered[0], ordered[1], state, number, found)
+        _read_captions(ordered[0], ordered[1], state, number)
     elif index and rows[index - 1][0] is not state.given and _captioned(rows[index - 1], row, following):
-        above = _broken_caption(rows[:index])
-        _read_captions(column.page, rows[index - 1][0], row[0], state, number, found, above)
+        _read_captions(rows[index - 1][0], row[0], state, number, _broken_caption(rows[:index]))
     else:
-        _read_row(column, row, state, number, found)
-        state.last = (row, range(before, len(found)), row[0].pieces[0].text) if len(found) > before else None
+        _read_row(row, state, number)
+        after = len(state.found)
+        state.last = (row, range(before, after), row[0].pieces[0].text) if after > before else None
 
 
 def _between(above: Sequence[TextLine], below: Sequence[TextLine]) -> float:
     return min(line.top for line in below) - max(line.bottom for line in above)
 
 
-def _read_row(
-    column: TextColumn, row: Sequence[TextLine], state: ReaderState, number: int, found: list[Statement]
-) -> None:
+def _read_row(row: Sequence[TextLine], state: ReaderState, number: int) -> None:
     pieces = [p for line in row for p in line.pieces]
     kinds = ["text"] * len(pieces) if _are_designations(pieces) else [kind_of(p) for p in pieces]
-    if _heads_a_section(column, pieces, kinds):
-        heading = column.heading(max(line.bottom for line in row), pieces[0].text)
-        state.open_section(heading, tuple(pieces[1:]))
+    if _heads_a_section(state, pieces, kinds):
+        state.open_section(state.heading(max(line.bottom for line in row), pieces[0].text), tuple(pieces[1:]))
         return
     ordered = sorted(row, key=lambda line: line.top)
     if len(row) == 2 and _are_names(*ordered):
@@ -125,11 +113,11 @@ def _read_row(
             return
         if not inline:
             for line in sorted(row, key=lambda one: one.top):
-                if not _label_orphans(line, state, found):
-                    read_words(column, line, state)
+                if not _label_orphans(line, state):
+                    read_words(line, state)
             return
     state.orphans = []
-    read_values(column.page, row, state, number, found)
+    read_values(row, state, number)
     state.data_since_heads = True
 
 
@@ -181,13 +169,7 @@ def _broken_caption(rows: Sequence[Sequence[TextLine]]) -> list[TextPiece]:
 
 
 def _read_captions(
-    page: Page,
-    labels: TextLine,
-    values: TextLine,
-    state: ReaderState,
-    number: int,
-    found: list[Statement],
-    above: Sequence[TextPiece] = (),
+    labels: TextLine, values: TextLine, state: ReaderState, number: int, above: Sequence[TextPiece] = ()
 ) -> None:
     state.heads, state.pending, state.last = [], [], None
     lines = [*(TextLine((p,)) for p in above), labels, values]
@@ -195,18 +177,16 @@ def _read_captions(
     for label, value in zip(labels.pieces, values.pieces, strict=True):
         cell = ValueCell([*above, label], [value])
         marked = any(EXAMPLE.search(text) for text in (state.section, label.text, value.text))
-        statement = statement_of(page, lines, cell, (), context, (), number)
-        found.append(in_section(statement, state, marked=marked))
+        statement = statement_of(state.page, lines, cell, (), context, (), number)
+        state.found.append(in_section(statement, state, marked=marked))
 
 
-def _continue_label(
-    row: Sequence[TextLine], following: Sequence[TextLine] | None, state: ReaderState, found: list[Statement]
-) -> bool:
+def _continue_label(row: Sequence[TextLine], following: Sequence[TextLine] | None, state: ReaderState) -> bool:
     """Gives a label whose value stands beside its first line the words under it: they are nearer to it than to the row
     below."""
     if state.last is None or len(row) != 1 or len(row[0].pieces) != 1:
         return False
-    above, indices, first = state.last
+    (above, indices, first), found = state.last, state.found
     more, label = row[0].pieces[0], above[0].pieces[0]
     worded = kind_of(more) == "text" or bool(kind_of(more) == "value" and re.search(r"[^\W\d_]{3,}", more.text))
     plain = worded and kind_of(label) == "text" and not (more.bold and not label.bold)
@@ -231,10 +211,10 @@ def _continue_label(
     return bool(own)
 
 
-def _label_orphans(line: TextLine, state: ReaderState, found: list[Statement]) -> bool:
+def _label_orphans(line: TextLine, state: ReaderState) -> bool:
     """Gives values without any label the words right beneath them: a card with a big number over its name, or what is
     nearer to them than to the next row."""
-    orphans, state.orphans = state.orphans, []
+    orphans, state.orphans, found = state.orphans, [], state.found
     if not orphans or len(line.pieces) != len(orphans):
         return False
     for index, piece in zip(orphans, line.pieces, strict=True):
@@ -259,13 +239,13 @@ def _label_orphans(line: TextLine, state: ReaderState, found: list[Statement]) -
     return True
 
 
-def _heads_a_section(column: TextColumn, pieces: Sequence[TextPiece], kinds: Sequence[str]) -> bool:
+def _heads_a_section(state: ReaderState, pieces: Sequence[TextPiece], kinds: Sequence[str]) -> bool:
     """Whether a row on a heading's bar names the section and its columns by numbers: "Dimensions   2.5-m arm   3-m
     arm"."""
     if len(pieces) < 3 or kinds[0] != "text" or not set(kinds[1:]) <= {"value"} or not all(p.bold for p in pieces):
         return False
     named = all(words_beside_numbers(p.bare, read(p.bare)) for p in pieces[1:])
-    return named and bar_under(column.page, pieces[0], column.size) is not None
+    return named and bar_under(state.page, pieces[0], state.size) is not None
 
 
 def _are_heads(pieces: Sequence[TextPiece], kinds: Sequence[str], state: ReaderState) -> bool:

@@ -25,10 +25,9 @@ from yellowiron.specs.layout.statement import (
     unit_of_heading,
 )
 from yellowiron.specs.layout.tolerances import INDENT, LONGEST_LABEL
-from yellowiron.specs.pages.words import Page
 
 
-def read_values(page: Page, row: Sequence[TextLine], state: ReaderState, number: int, found: list[Statement]) -> None:
+def read_values(row: Sequence[TextLine], state: ReaderState, number: int) -> None:
     """Adds the statements of a row with values, `number` theirs, to those found above it."""
     state.worded = ()
     cells = [c for c in cells_of(row) if _words_of(c.label) <= LONGEST_LABEL]
@@ -49,13 +48,13 @@ def read_values(page: Page, row: Sequence[TextLine], state: ReaderState, number:
     for cell in cells:
         heads = heads_over(state.heads, join_boxes(p.box for p in cell.values), alone=len(cells) == 1)
         above = context if not cell.label or pending else []
-        statement = statement_of(page, row, cell, heads, context, above, number)
-        found.append(in_section(statement, state, marked=marked))
+        statement = statement_of(state.page, row, cell, heads, context, above, number)
+        state.found.append(in_section(statement, state, marked=marked))
     if not has_label:
         # A value under a label on a line of its own, its partner beneath: "25,510 kg" / "56,240 lb".
         state.pending = pending
         if not pending and not state.heads:
-            state.orphans = list(range(len(found) - len(cells), len(found)))
+            state.orphans = list(range(len(state.found) - len(cells), len(state.found)))
 
 
 def _words_of(label: Sequence[TextPiece]) -> int:

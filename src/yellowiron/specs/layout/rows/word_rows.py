@@ -15,12 +15,12 @@ from yellowiron.specs.layout.rows.headings import (
     names_no_columns,
 )
 from yellowiron.specs.layout.rows.lines import TextLine
-from yellowiron.specs.layout.rows.reader_state import ReaderState, TextColumn, stacked
+from yellowiron.specs.layout.rows.reader_state import ReaderState, stacked
 from yellowiron.specs.layout.statement import TextPiece, is_unit, kind_of, unit_of_heading, unit_said
 from yellowiron.specs.layout.tolerances import LARGER, LONGEST_LABEL
 
 
-def read_words(column: TextColumn, line: TextLine, state: ReaderState) -> None:
+def read_words(line: TextLine, state: ReaderState) -> None:
     """Reads a line without a value: a heading, column heads, a sub-heading, or the first line of a label."""
     texts = [q for p in line.pieces if kind_of(p) != "mark" for q in _parted(p)]
     above, state.worded = state.worded, ()
@@ -31,20 +31,20 @@ def read_words(column: TextColumn, line: TextLine, state: ReaderState) -> None:
     if len(texts) == 1 and (unit := unit_said(texts[0].bare)):
         state.unit = unit
         return
-    at_label = texts[0].x0 < column.labels_end
+    at_label = texts[0].x0 < state.labels_end
     if at_label and not texts[0].bold and names_no_columns([p.bare for p in texts]):
         state.pending = []
         return
-    if len(texts) == 1 == len(line.pieces) and _is_larger_over_labels(texts[0], column):
+    if len(texts) == 1 == len(line.pieces) and _is_larger_over_labels(texts[0], state):
         at_label = True  # a heading in the middle
     if len(texts) == 1 and len(above) == 2 and not at_label and stacked(above[1], texts[0]):
         state.worded = (above[0], texts[0])  # what is said of it goes on
         return
-    heading = _on_bar_or_large(column, line, texts, at_label=at_label)
-    heading = heading or (_titled_with_unit(column, line, texts) if at_label else None)
+    heading = _on_bar_or_large(state, line, texts, at_label=at_label)
+    heading = heading or (_titled_with_unit(state, line, texts) if at_label else None)
     if heading is not None:
         state.open_section(*heading)
-    elif _are_column_heads(texts, column.labels_end, state):
+    elif _are_column_heads(texts, state):
         titled = at_label or ":" in texts[0].bare  # "Dimensions: mm   Model"
         unit = unit_of_heading(texts[0].bare)[1] if titled and len(texts) > 1 else ""
         state.unit = unit or ("" if state.data_since_heads else state.unit)
@@ -63,11 +63,11 @@ def read_words(column: TextColumn, line: TextLine, state: ReaderState) -> None:
             state.worded = tuple(texts)
 
 
-def _is_larger_over_labels(piece: TextPiece, column: TextColumn) -> bool:
+def _is_larger_over_labels(piece: TextPiece, state: ReaderState) -> bool:
     """Whether words alone on their line are set larger than the rows, and begin over their labels or stand in the
     middle of the page."""
-    centred = abs((piece.x0 + piece.x1) / 2 - column.page.width / 2) < 0.01 * column.page.width
-    return piece.size > LARGER * column.size and (piece.x0 < labels_reach(column.block) or centred)
+    centred = abs((piece.x0 + piece.x1) / 2 - state.page.width / 2) < 0.01 * state.page.width
+    return piece.size > LARGER * state.size and (piece.x0 < labels_reach(state.block) or centred)
 
 
 _Section = tuple[Heading, tuple[TextPiece, ...]]
@@ -75,25 +75,25 @@ _Section = tuple[Heading, tuple[TextPiece, ...]]
 
 
 def _on_bar_or_large(
-    column: TextColumn, line: TextLine, texts: Sequence[TextPiece], *, at_label: bool
+    state: ReaderState, line: TextLine, texts: Sequence[TextPiece], *, at_label: bool
 ) -> _Section | None:
     """The section that a line opens which is printed on a filled bar or set like a heading."""
-    bar = bar_under(column.page, texts[0], column.size) if at_label or len(texts) < 2 else None
-    if bar is None and not (len(texts) == 1 and at_label and is_heading(texts[0], column.size)):
+    bar = bar_under(state.page, texts[0], state.size) if at_label or len(texts) < 2 else None
+    if bar is None and not (len(texts) == 1 and at_label and is_heading(texts[0], state.size)):
         return None
     on_bar = [p.text for p in line.pieces if kind_of(p) != "mark" and (bar is None or inside(p.box, bar))]
     heads = tuple(p for p in texts[1:] if not unit_said(p.bare))
     unit = next((u for p in texts[1:] if (u := unit_said(p.bare))), "")
     section = texts[0].text if heads or unit else " ".join(on_bar)
-    return column.heading(line.bottom, f"{section} ({unit})" if unit else section), heads
+    return state.heading(line.bottom, f"{section} ({unit})" if unit else section), heads
 
 
-def _titled_with_unit(column: TextColumn, line: TextLine, texts: Sequence[TextPiece]) -> _Section | None:
+def _titled_with_unit(state: ReaderState, line: TextLine, texts: Sequence[TextPiece]) -> _Section | None:
     """The section that a title opens which has the unit of its rows' numbers at the end of its line."""
-    if len(texts) != 2 or not is_title(texts[0], column.size) or not (unit := is_unit(texts[1].bare)):
+    if len(texts) != 2 or not is_title(texts[0], state.size) or not (unit := is_unit(texts[1].bare)):
         return None
     words = f"{texts[0].text} {unit.replace('|', ' (')})" if "|" in unit else f"{texts[0].text} ({unit})"
-    return column.heading(line.bottom, words), ()
+    return state.heading(line.bottom, words), ()
 
 
 def _parted(piece: TextPiece) -> list[TextPiece]:
@@ -104,11 +104,11 @@ def _parted(piece: TextPiece) -> list[TextPiece]:
     return [TextPiece(piece.words[a:b]) for a, b in zip([0, *ends], [*ends, len(piece.words)], strict=True)]
 
 
-def _are_column_heads(texts: Sequence[TextPiece], labels_end: float, state: ReaderState) -> bool:
+def _are_column_heads(texts: Sequence[TextPiece], state: ReaderState) -> bool:
     """Whether a line of words names columns: units alone, several words over the values, or emphasis."""
     if len(texts) == 2 and texts[1].x0 - texts[0].x1 < 0.5 * texts[0].size:
         return False  # "Transmission|HY": a name and what is said of it, parted by no more than a space
-    over_values = [p for p in texts if p.x0 >= labels_end]
+    over_values = [p for p in texts if p.x0 >= state.labels_end]
     bold = all(p.bold for p in texts)
     if all(is_unit(p.bare) for p in texts) or len(over_values) >= 2:
         return True
