@@ -65,7 +65,7 @@ class Asked:
     words: frozenset[str]
 
 
-@dataclass(frozen=True)
+@dataclass(frozen=True, eq=False)
 class Question:
     """A question: the page's number and cells, what is wanted, which machine is meant, and the request's text."""
 
@@ -92,15 +92,11 @@ class Question:
         return sorted(found, key=lambda c: -c.y)
 
 
+@functools.lru_cache(maxsize=1024)
 def question_of(text: str) -> Question:
     """A question out of the words that are sent."""
     sheet = text[text.index("<sheet>") + 7 : text.index("</sheet>")].strip()
     rest = text[text.index("</sheet>") :]
-    cells = []
-    for number, line in enumerate(sheet.splitlines()):
-        if head := re.match(r"y=(-?\d+): ", line):
-            for m in re.finditer(r"\[(\d+) x=(-?\d+)-(-?\d+)\] (.*?)(?= \| \[\d+ x=|$)", line):
-                cells.append(Shown(int(m[1]), number, float(head[1]), float(m[2]), float(m[3]), m[4]))
     wanted = [
         Asked(m[1], m[2], frozenset(tokens(f"{m[1]} {m[3]}")))
         for m in re.finditer(r"^- (.*?) \((\w+)(?:;[^;)]*)?(?:; also called ([^)]*))?", rest, re.MULTILINE)
@@ -108,7 +104,26 @@ def question_of(text: str) -> Question:
     meant = re.search(r"The machine meant is: (.*)\. Take", rest)
     page = re.match(r"page (\d+)", sheet)
     assert page is not None
-    return Question(int(page[1]), tuple(cells), tuple(wanted), meant[1] if meant else "", text)
+    return Question(int(page[1]), _cells_of(sheet), tuple(wanted), meant[1] if meant else "", text)
+
+
+class _Cells(tuple["Shown", ...]):
+    """A page's cells, the same only as themselves: what is kept of a page is kept by them."""
+
+    __hash__ = object.__hash__
+
+    def __eq__(self, other: object) -> bool:
+        return self is other
+
+
+@functools.lru_cache(maxsize=1024)
+def _cells_of(sheet: str) -> _Cells:
+    cells = []
+    for number, line in enumerate(sheet.splitlines()):
+        if head := re.match(r"y=(-?\d+): ", line):
+            for m in re.finditer(r"\[(\d+) x=(-?\d+)-(-?\d+)\] (.*?)(?= \| \[\d+ x=|$)", line):
+                cells.append(Shown(int(m[1]), number, float(head[1]), float(m[2]), float(m[3]), m[4]))
+    return _Cells(cells)
 
 
 @dataclass(frozen=True)
@@ -127,13 +142,13 @@ def pairs(question: Question, asked: Asked) -> list[Pair]:
     return list(_shared(question.cells, asked))
 
 
-@functools.lru_cache(maxsize=4096)
+@functools.lru_cache(maxsize=16384)
 def _shared(cells: tuple[Shown, ...], asked: Asked) -> tuple[Pair, ...]:
     said = _pairs(cells, asked.dimension)
     return tuple(replace(p, share=len(asked.words & words) / max(len(words), 1)) for p, words in said)
 
 
-@functools.lru_cache(maxsize=16)
+@functools.lru_cache(maxsize=1024)
 def _labelled(cells: tuple[Shown, ...]) -> tuple[tuple[Shown, tuple[Shown, ...]], ...]:
     """The cells, those with a number each with the words before, beside, above and below it."""
     page = Question(0, cells, (), "", "")
@@ -151,7 +166,7 @@ def _labelled(cells: tuple[Shown, ...]) -> tuple[tuple[Shown, tuple[Shown, ...]]
     return tuple(found)
 
 
-@functools.lru_cache(maxsize=512)
+@functools.lru_cache(maxsize=4096)
 def _pairs(cells: tuple[Shown, ...], dimension: str) -> tuple[tuple[Pair, frozenset[str]], ...]:
     found: dict[tuple[int, str, float, int], tuple[Pair, frozenset[str]]] = {}
     for cell, labels in _labelled(cells):
@@ -202,8 +217,13 @@ def entry(question: Question, asked: Asked, pair: Pair, **other: Any) -> Entry:
     return {**said, **other}
 
 
+@functools.lru_cache(maxsize=4096)
+def _quantity(printed: str) -> tuple[float, str]:
+    return parse_quantity(printed, where=printed)
+
+
 def _is(printed: str, value: float) -> bool:
-    expected = parse_quantity(printed, where=printed)[0]
+    expected = _quantity(printed)[0]
     return abs(value - expected) <= 2e-3 * abs(expected) + 1e-9
 
 
@@ -313,7 +333,7 @@ def _others_value(question: Question, asked: Asked, found: list[Pair], truths: T
 
 
 def _is_so_much(printed: str, value: float, asked: Asked) -> bool:
-    return parse_quantity(printed, where=printed)[1] == SI_UNIT.get(asked.dimension) and _is(printed, value)
+    return _quantity(printed)[1] == SI_UNIT.get(asked.dimension) and _is(printed, value)
 
 
 def _near_miss(question: Question, asked: Asked, found: list[Pair], truths: Truths) -> Entry | None:

@@ -97,10 +97,7 @@ def read_pages(
             if one is not None and (spot := spot_of(said, text)) is not None:
                 reading.seen.setdefault(one.name, []).append(spot)
             try:
-                pointed = _checked(one, said, text, row, style, every, config)
-                read_so = [c for c in claims if _is_there(c, pointed)]
-                if not all(_is_sure(c, claims, pointed, every, config) for c in read_so):
-                    pointed = replace(pointed, sure=False)
+                pointed = checked(one, said, text, row, style, every, claims, config)
             except RefusedError as why:
                 reading.refused[str(why)] += 1
                 continue
@@ -123,6 +120,24 @@ def pages_of(cells: Sequence[Sequence[Cell]]) -> list[PageText]:
                 if sum(any(c.isdigit() for c in cell.text) for cell in part) >= _LEAST_NUMBERS
             ]
     return found
+
+
+def checked(
+    one: Wanted | None,
+    said: Mapping[str, object],
+    text: PageText,
+    row: int,
+    style: DecimalStyle,
+    every: Sequence[Wanted],
+    claims: Sequence[Claim],
+    config: str,
+) -> Pointed:
+    """An entry of an answer that passes the gates; it is sure where the rules' own words for the number, too, say the
+    value. `RefusedError` where it does not pass."""
+    pointed = _checked(one, said, text, row, style, every, config)
+    read_so = [c for c in claims if _is_there(c, pointed)]
+    sure = pointed.sure and all(_is_sure(c, claims, pointed, every, config) for c in read_so)
+    return replace(pointed, sure=sure)
 
 
 def _checked(

@@ -7,6 +7,7 @@ right over or under it. The heading and the columns are the page's, whatever the
 
 from __future__ import annotations
 
+import functools
 import re
 from collections.abc import Mapping, Sequence
 from dataclasses import dataclass
@@ -156,7 +157,7 @@ def _label_of(value: Cell, begin: int, labels: Sequence[Cell], cells: Sequence[C
             raise RefusedError("the label is not the value's own")
         return before.rstrip(" :("), True
     inside = re.search(r"[^\W\d_]{2,}[^:]*:", value.text[:begin]) is not None
-    others = any(c.kind != "text" and not words_beside_numbers(c.bare, read(c.bare)) for c in labels)
+    others = any(c.kind != "text" and not _says_words(c.bare) for c in labels)
     if value in labels or inside or others or any(re.search(r":\s*\S*\d", c.text) for c in labels):
         raise RefusedError("the label is not the value's own")
     own = [c for c in labels if _is_own(c, value, cells)]
@@ -195,7 +196,18 @@ def _is_words(cell: Cell, value: Cell) -> bool:
     """Whether a cell is words, and no value beside one that has words of its own ("6 x 19 IWRC ø10 mm")."""
     if cell.kind != "text" or is_key(cell.bare) or is_key(unit_in_label(cell.bare)[0]):  # "h1", "b 10 (mm)"
         return False
-    return value.kind != "text" or not any(q.unit for r in read(cell.text) for q in r.numbers)
+    return value.kind != "text" or not _has_unit(cell.text)
+
+
+@functools.lru_cache(maxsize=8192)
+def _has_unit(text: str) -> bool:
+    return any(q.unit for r in read(text) for q in r.numbers)
+
+
+@functools.lru_cache(maxsize=8192)
+def _says_words(text: str) -> bool:
+    """Whether a text has words beside its numbers."""
+    return bool(words_beside_numbers(text, read(text)))
 
 
 def _follows(a: Cell, b: Cell) -> bool:
@@ -241,7 +253,7 @@ def _over(value: Cell, cells: Sequence[Cell]) -> tuple[Cell, ...]:
     """What may name a value's column: words above it, also with a number, and among them nothing wider than a table's
     cell would be."""
     return tuple(
-        c for c in _above(value, cells) if c.kind == "text" or words_beside_numbers(c.bare, read(c.bare))
+        c for c in _above(value, cells) if c.kind == "text" or _says_words(c.bare)
     )  # fmt: skip
 
 
