@@ -203,7 +203,8 @@ def with_model(
     reading, more = _by_model(ask, model, alone=extractor == "llm")
     for one in open_:
         own = ruled.matches.get(one.name, []) if reading.seen else []
-        heard = Asked(one, direct, own, ruled.nearby.get(one.name), ruled.known, config, model.model if model else "")
+        nearby, name = ruled.nearby.get(one.name), model.model if model else ""
+        heard = Asked(one, direct, own, nearby, ruled.known, config, name, ruled.values[one.name])
         seen = reading.seen.get(one.name, [])
         values[one.name] = agreed(heard, values[one.name], reading.found.get(one.name, []), seen)
     values = _of_pictures(ruled.wanted, values, sheets)

@@ -16,7 +16,7 @@ import re
 import zlib
 from collections.abc import Callable, Iterator, Mapping
 from contextlib import contextmanager
-from dataclasses import dataclass, replace
+from dataclasses import dataclass
 from typing import Any
 from unittest import mock
 
@@ -144,8 +144,10 @@ def pairs(question: Question, asked: Asked) -> list[Pair]:
 
 @functools.lru_cache(maxsize=16384)
 def _shared(cells: tuple[Shown, ...], asked: Asked) -> tuple[Pair, ...]:
-    said = _pairs(cells, asked.dimension)
-    return tuple(replace(p, share=len(asked.words & words) / max(len(words), 1)) for p, words in said)
+    return tuple(
+        Pair(p.cell, p.number, p.value, p.label, len(asked.words & words) / max(len(words), 1))
+        for p, words in _pairs(cells, asked.dimension)
+    )
 
 
 @functools.lru_cache(maxsize=1024)
@@ -223,8 +225,23 @@ def _quantity(printed: str) -> tuple[float, str]:
 
 
 def _is(printed: str, value: float) -> bool:
-    expected = _quantity(printed)[0]
+    return _alike(_quantity(printed)[0], value)
+
+
+def _alike(expected: float, value: float) -> bool:
     return abs(value - expected) <= 2e-3 * abs(expected) + 1e-9
+
+
+def _is_in_other_unit(printed: str, pair: Pair) -> bool:
+    """Whether a number is the printed one but for thousands, whatever unit its page gives it."""
+    said, number = re.match(r"[\d.]+", printed), pair.number.replace(",", "").replace(" ", "")
+    if said is None or not re.fullmatch(r"\d+(?:\.\d+)?", number):
+        return False
+    return any(_alike(float(said[0]) * times, float(number)) for times in (1.0, 1e3, 1e-3))
+
+
+_PLACES = 3
+"""Places at most that a truthful model names for a value, the likeliest first."""
 
 
 def _configured(question: Question, pair: Pair) -> bool:
@@ -232,17 +249,19 @@ def _configured(question: Question, pair: Pair) -> bool:
 
 
 def truthful(truths: Truths, pages: Mapping[str, int] | None = None) -> Model:
-    """Says where the page prints what a person read there, and nothing else; `pages`: on which page it was."""
+    """Says where the page prints what a person read there, beside which words, and nothing else; `pages`: on which page it was."""
 
     def answer(question: Question) -> list[Entry]:
         found = []
         for asked in question.wanted:
             if asked.name not in truths or (pages and pages.get(asked.name, question.page) != question.page):
                 continue
-            right = [p for p in pairs(question, asked) if _is(truths[asked.name], p.value)]
-            if right:
-                best = max(right, key=lambda p: (_configured(question, p), p.share))
-                found.append(entry(question, asked, best))
+            every = pairs(question, asked)
+            right = [p for p in every if _is(truths[asked.name], p.value)]
+            # A unit printed for another ("530 m/s" of a lift speed in mm/s): the number is read all the same.
+            right = right or [p for p in every if p.share and _is_in_other_unit(truths[asked.name], p)]
+            right.sort(key=lambda p: (_configured(question, p), p.share), reverse=True)
+            found += [entry(question, asked, p) for p in right[:1] + [p for p in right[1:_PLACES] if p.share]]
         return found
 
     return answer
@@ -327,13 +346,11 @@ def _other_row(question: Question, asked: Asked, found: list[Pair], truths: Trut
 
 def _others_value(question: Question, asked: Asked, found: list[Pair], truths: Truths) -> Entry | None:
     """What the page prints of another wanted value, with that one's label, under the name asked for."""
-    others = [text for name, text in sorted(truths.items()) if name != asked.name]
-    wrong = [p for p in _false(asked, found, truths) if any(_is_so_much(text, p.value, asked) for text in others)]
+    told = (_quantity(text) for name, text in truths.items() if name != asked.name)
+    others = sorted({value for value, unit in told if unit == SI_UNIT.get(asked.dimension)})
+    wrong = [p for p in found if any(_alike(value, p.value) for value in others)]
+    wrong = _false(asked, wrong, truths)
     return entry(question, asked, max(wrong, key=lambda p: p.share)) if wrong else None
-
-
-def _is_so_much(printed: str, value: float, asked: Asked) -> bool:
-    return _quantity(printed)[1] == SI_UNIT.get(asked.dimension) and _is(printed, value)
 
 
 def _near_miss(question: Question, asked: Asked, found: list[Pair], truths: Truths) -> Entry | None:

@@ -24,7 +24,7 @@ from yellowiron.specs.llm.pointing import PageText, Place, RefusedError, Spot, p
 from yellowiron.specs.llm.prompts import PLACES, places_on
 from yellowiron.specs.values.claims import Claim, claims_of, phrases_in, without_case
 from yellowiron.specs.values.contention import Match
-from yellowiron.specs.values.decision import settled
+from yellowiron.specs.values.decision import is_broken_off, settled
 from yellowiron.specs.values.matching import match, match_one, weakly
 from yellowiron.specs.values.requested import usual
 from yellowiron.specs.values.tolerances import LEAST
@@ -40,6 +40,12 @@ _SPOKEN = {
 """The word that a unit says by itself: what is printed in degrees is an angle."""
 _RANGE = re.compile(r"\s*(?:[-–—~～…]|to|bis|à|a|至)\s*", re.IGNORECASE)
 _TO = re.compile(r"\s(?:to|bis|à|a)$")
+_GOES_ON = re.compile(
+    r"\b(?:at|of|with|without|for|from|to|over|under|and|or|bei|mit|ohne|von|bis|und|oder|avec|sans|pour|de|du|et|ou|"
+    r"con|sin|para|del|y|o)$",
+    re.IGNORECASE,
+)
+"""How a label ends that goes on elsewhere: "Maximum reach at", and below it "ground level"."""
 _LOW, _HIGH = frozenset({"minimum", "retracted", "low"}), frozenset({"maximum", "extended", "high"})
 
 
@@ -222,7 +228,9 @@ def _judged(
     # Of two values that one label may mean ("angle", "greatest angle") only the page can say which it is.
     told = match([best.claim], [one, *rivals])  # by its own name, too: "engine power" is no net power then
     shared = [m for w in rivals for m in told[w.name] if m.score > best.score - 1e-9]
-    sure = not (doubt or ranged or shared) and chosen and usual(one, quantity.si_value) and says_in_full(best)
+    label = place.statement.label.rstrip()
+    whole = not is_broken_off(label) and _GOES_ON.search(label) is None
+    sure = not (doubt or ranged or shared) and whole and chosen and usual(one, quantity.si_value) and says_in_full(best)
     return Pointed(replace(best, claim=replace(best.claim, ranged=ranged)), place, sure)
 
 

@@ -175,8 +175,8 @@ def _is_own(label: Cell, value: Cell, cells: Sequence[Cell]) -> bool:
     """Whether a label is a value's: the nearest words to the left on its row; or right over or under it, where no words
     are on its row and no other value on the label's."""
     level = _level(label.box, value.box)
-    left = [c for c in cells if _is_words(c, value) and c.box[2] <= value.box[0] + 1]
-    beside = [c for c in left if _level(c.box, value.box) >= _LEVEL]
+    left = [c for c in cells if c.box[2] <= value.box[0] + 1 and _level(c.box, value.box) >= _LEVEL]
+    beside = [c for c in left if _is_words(c, value)]
     if level >= _LEVEL and label.box[2] <= value.box[0] + 1:
         nearest = max(c.box[2] for c in beside) if beside else 0.0
         return label.box[2] >= nearest - 1 or not any(
@@ -194,9 +194,15 @@ def _is_own(label: Cell, value: Cell, cells: Sequence[Cell]) -> bool:
 
 def _is_words(cell: Cell, value: Cell) -> bool:
     """Whether a cell is words, and no value beside one that has words of its own ("6 x 19 IWRC ø10 mm")."""
-    if cell.kind != "text" or is_key(cell.bare) or is_key(unit_in_label(cell.bare)[0]):  # "h1", "b 10 (mm)"
+    if cell.kind != "text" or _is_key(cell.bare):
         return False
     return value.kind != "text" or not _has_unit(cell.text)
+
+
+@functools.lru_cache(maxsize=8192)
+def _is_key(text: str) -> bool:
+    """Whether a text is a drawing's key: "h1", "b 10 (mm)"."""
+    return is_key(text) or is_key(unit_in_label(text)[0])
 
 
 @functools.lru_cache(maxsize=8192)
