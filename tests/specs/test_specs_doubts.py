@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import re
 from dataclasses import replace
 from pathlib import Path
 
@@ -19,7 +20,7 @@ from yellowiron.specs.layout.statement import Statement
 from yellowiron.specs.llm.agreement import Asked, agreed
 from yellowiron.specs.llm.doubts import Doubted, is_answered
 from yellowiron.specs.llm.page_reader import Pointed, checked
-from yellowiron.specs.llm.pointing import PageText, place_of
+from yellowiron.specs.llm.pointing import PageText, RefusedError, place_of
 from yellowiron.specs.values.claims import Claim
 from yellowiron.specs.values.contention import Match
 from yellowiron.specs.values.cross_check import Nearby
@@ -136,6 +137,30 @@ def test_a_unit_misprinted_for_another_is_told_by_the_range_where_the_label_says
     found = Match(asked, claim, 1.0, "lift speed", rest)
     value = Specification("Lift Speed", 0.53, "m/s", "review", reason="'530 m/s' is outside what is usual")
     assert is_answered(Doubted(asked, (asked,), (found,), None), value) is answered
+    beside = replace(found, claim=replace(claim, quantity=Quantity(0.5, "m/s", 0.05, "0.5", 3, 6)))  # "2) 1955"
+    assert not is_answered(Doubted(asked, (asked,), (found, beside), None), value)
+
+
+@pytest.mark.parametrize(("labels", "passes"), [([1, 2], True), ([2], True), ([1], False), ([1, 4], False)])
+def test_a_label_of_two_parts_on_a_row(labels: list[int], passes: bool) -> None:
+    """Both are said, or the nearer one; not the farther one alone, nor what is another row's."""
+    shown = [
+        (36.0, 20.0, "Turning radius", "text"), (120.0, 20.0, "minimum outside", "text"),
+        (210.0, 20.0, "2.05 m", "value"), (36.0, 60.0, "Ground clearance", "text"), (210.0, 60.0, "0.12 m", "value"),
+    ]  # fmt: skip
+    cells = tuple(
+        Cell(1, int(y), words, words, (x0, y, x0 + 70.0, y + 9.0), 10.0, kind, False) for x0, y, words, kind in shown
+    )
+    said = {
+        "value_cell": 3, "value": "2.05", "label_cells": labels, "unit_cell": 0, "column_cell": 0, "footnote_cell": 0,
+        "words": "",
+    }  # fmt: skip
+    said["words"] = " ".join(cells[n - 1].text for n in labels)
+    if not passes:
+        with pytest.raises(RefusedError, match="label is not the value's own"):
+            place_of(said, PageText(0, 1, cells), -1)
+        return
+    assert place_of(said, PageText(0, 1, cells), -1).statement.label == said["words"]
 
 
 def pointed(label: str, text: str) -> Pointed:
@@ -145,8 +170,8 @@ def pointed(label: str, text: str) -> Pointed:
         for x0, words, kind in ((36.0, label, "text"), (200.0, text, "value"))
     )
     said = {
-        "name": REACH.name, "value_cell": 2, "value": text.split()[0], "label_cells": [1], "unit_cell": 0,
-        "column_cell": 0, "footnote_cell": 0, "words": label,
+        "name": REACH.name, "value_cell": 2, "value": re.findall(r"[\d.,]+", text)[0], "label_cells": [1],
+        "unit_cell": 0, "column_cell": 0, "footnote_cell": 0, "words": label,
     }  # fmt: skip
     return checked(REACH, said, PageText(0, 1, cells), -1, "point", (REACH,), (), "")
 
@@ -154,10 +179,16 @@ def pointed(label: str, text: str) -> Pointed:
 REACH = template(wanted("Maximum Reach", "length", "maximum reach")).wanted[0]
 
 
-@pytest.mark.parametrize(("label", "sure"), [("Maximum reach", True), ("Maximum reach at", False)])
-def test_a_label_that_goes_on_elsewhere_says_nothing_in_full(label: str, sure: bool) -> None:
-    """Below it stands "ground level"."""
-    assert pointed(label, "12,580 mm").sure is sure
+@pytest.mark.parametrize(
+    ("label", "text", "sure"),
+    [
+        ("Maximum reach", "12,580 mm", True),
+        ("Maximum reach at", "12,580 mm", False),  # below it stands "ground level"
+        ("Maximum reach", "- / 12.58 m", False),  # of one of two things only
+    ],
+)
+def test_a_label_that_goes_on_and_a_value_that_is_not_given(label: str, text: str, sure: bool) -> None:
+    assert pointed(label, text).sure is sure
 
 
 @pytest.mark.parametrize(

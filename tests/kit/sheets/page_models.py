@@ -194,6 +194,15 @@ def _pairs(cells: tuple[Shown, ...], dimension: str) -> tuple[tuple[Pair, frozen
     return tuple(found.values())
 
 
+def _between(question: Question, pair: Pair) -> list[Shown]:
+    """The words that go on with a label on its row, before the number: "Turning radius | minimum outside | mm"."""
+    row = sorted((c for c in question.cells if c.line == pair.cell.line), key=lambda c: c.x0)
+    if pair.label is pair.cell or pair.label not in row:
+        return []
+    words = row[row.index(pair.label) + 1 : row.index(pair.cell)]
+    return [c for c in words if c.is_text and not is_unit(c.text)]
+
+
 def entry(question: Question, asked: Asked, pair: Pair, **other: Any) -> Entry:
     """What a model says that points to a pair."""
     row = sorted((c for c in question.cells if c.line == pair.cell.line), key=lambda c: c.x0)
@@ -205,7 +214,8 @@ def entry(question: Question, asked: Asked, pair: Pair, **other: Any) -> Entry:
     headed = [c for c in question.above(pair.cell) if is_unit(c.text) or unit_in_label(c.text)[1]][:1]
     bare = not re.search(r"\d\s*[^\W\d]|[°\"']", pair.cell.text)
     said = {
-        "name": asked.name, "value_cell": pair.cell.number, "value": pair.number, "label_cells": [pair.label.number],
+        "name": asked.name, "value_cell": pair.cell.number, "value": pair.number,
+        "label_cells": [pair.label.number, *(c.number for c in _between(question, pair))],
         "unit_cell": beside[0].number if beside else 0, "column_cell": headed[0].number if headed and bare else 0,
         "footnote_cell": 0, "words": " ".join(re.findall(r"[^\W\d_]{2,}", pair.label.text)[-3:]),
     }  # fmt: skip
@@ -249,7 +259,8 @@ def _configured(question: Question, pair: Pair) -> bool:
 
 
 def truthful(truths: Truths, pages: Mapping[str, int] | None = None) -> Model:
-    """Says where the page prints what a person read there, beside which words, and nothing else; `pages`: on which page it was."""
+    """Says where the page prints what a person read there, beside which words, and nothing else; `pages`: on which
+    page it was."""
 
     def answer(question: Question) -> list[Entry]:
         found = []
@@ -259,7 +270,8 @@ def truthful(truths: Truths, pages: Mapping[str, int] | None = None) -> Model:
             every = pairs(question, asked)
             right = [p for p in every if _is(truths[asked.name], p.value)]
             # A unit printed for another ("530 m/s" of a lift speed in mm/s): the number is read all the same.
-            right = right or [p for p in every if p.share and _is_in_other_unit(truths[asked.name], p)]
+            if not any(p.share for p in right):  # what has as many digits by chance is named by nothing
+                right = [p for p in every if p.share and _is_in_other_unit(truths[asked.name], p)] or right
             right.sort(key=lambda p: (_configured(question, p), p.share), reverse=True)
             found += [entry(question, asked, p) for p in right[:1] + [p for p in right[1:_PLACES] if p.share]]
         return found

@@ -99,7 +99,9 @@ def _is_clear(doubted: Doubted, found: Match) -> bool:
     told = claim.doubt.endswith((COUNTED_TOGETHER, PRINTED_FOR_A_FORCE))
     open_ = is_broken_off(statement.label) or any(map(is_measures, statement.column)) or of_another_place(found)
     if doubt.endswith(WOULD_BE_USUAL) and not found.rest and found.score >= SURE:
-        doubt = ""  # "530 m/s" where the label says a lift speed in full: the range leaves one unit of those misprinted
+        # "530 m/s" where the label says a lift speed in full: the range leaves one unit, if nothing can be as printed.
+        as_printed = any(usual(doubted.wanted, m.claim.quantity.si_value) for m in doubted.matches)
+        doubt = doubt if as_printed else ""
     if doubt or (claim.doubt and not told) or claim.ranged or open_ or not usual(doubted.wanted, quantity.si_value):
         return False
     rest = set(found.rest) - (_GEARS if doubted.wanted.dimension == "speed" else set())

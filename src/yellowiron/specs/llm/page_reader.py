@@ -46,6 +46,8 @@ _GOES_ON = re.compile(
     re.IGNORECASE,
 )
 """How a label ends that goes on elsewhere: "Maximum reach at", and below it "ground level"."""
+_EMPTY = re.compile(r"^\s*[-–—]+\s*/|/\s*[-–—]+\s*$")
+"""One of two values that is not given: "- / 25" of "laden/unladen"."""
 _LOW, _HIGH = frozenset({"minimum", "retracted", "low"}), frozenset({"maximum", "extended", "high"})
 
 
@@ -229,7 +231,7 @@ def _judged(
     told = match([best.claim], [one, *rivals])  # by its own name, too: "engine power" is no net power then
     shared = [m for w in rivals for m in told[w.name] if m.score > best.score - 1e-9]
     label = place.statement.label.rstrip()
-    whole = not is_broken_off(label) and _GOES_ON.search(label) is None
+    whole = not (is_broken_off(label) or _GOES_ON.search(label) or _EMPTY.search(place.statement.text))
     sure = not (doubt or ranged or shared) and whole and chosen and usual(one, quantity.si_value) and says_in_full(best)
     return Pointed(replace(best, claim=replace(best.claim, ranged=ranged)), place, sure)
 

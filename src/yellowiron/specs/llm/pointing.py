@@ -163,10 +163,11 @@ def _label_of(value: Cell, begin: int, labels: Sequence[Cell], cells: Sequence[C
     own = [c for c in labels if _is_own(c, value, cells)]
     rest = [c for c in labels if c not in own]
     while rest:
-        joins = [c for c in rest if any(_follows(c, o) for o in own) and not _values_right_of(c, cells)]
+        joins = [c for c in rest if any(_leads_to(c, o, cells) for o in own)]
+        joins += [c for c in rest if any(_follows(c, o) for o in own) and not _values_right_of(c, cells)]
         if not joins:
             raise RefusedError("the label is not the value's own")
-        own += joins
+        own += [c for c in joins if c not in own]
         rest = [c for c in rest if c not in joins]
     return joined(c.bare for c in sorted(own, key=lambda c: (c.line, c.box[0]))), False
 
@@ -220,6 +221,12 @@ def _follows(a: Cell, b: Cell) -> bool:
     """Whether two cells are lines of one text."""
     gap = max(a.box[1] - b.box[3], b.box[1] - a.box[3])
     return _meet(a.box, b.box) and gap < 0.9 * a.size and abs(a.size - b.size) < 0.6
+
+
+def _leads_to(left: Cell, right: Cell, cells: Sequence[Cell]) -> bool:
+    """Whether two cells are the parts of one row's label: "Turning radius | minimum outside | mm | 2,050"."""
+    beside = [c for c in cells if c.box[0] >= left.box[2] - 1 and _level(c.box, left.box) >= 0.5]
+    return bool(beside) and min(beside, key=lambda c: c.box[0]) is right
 
 
 def _values_right_of(label: Cell, cells: Sequence[Cell]) -> bool:
