@@ -176,7 +176,7 @@ def pointed(label: str, text: str) -> Pointed:
     return checked(REACH, said, PageText(0, 1, cells), -1, "point", (REACH,), (), "")
 
 
-REACH = template(wanted("Maximum Reach", "length", "maximum reach")).wanted[0]
+REACH = template(wanted("Maximum Reach", "length", "maximum reach", "length")).wanted[0]
 
 
 @pytest.mark.parametrize(
@@ -185,6 +185,7 @@ REACH = template(wanted("Maximum Reach", "length", "maximum reach")).wanted[0]
         ("Maximum reach", "12,580 mm", True),
         ("Maximum reach at", "12,580 mm", False),  # below it stands "ground level"
         ("Maximum reach", "- / 12.58 m", False),  # of one of two things only
+        ("Length", "12.58 m", False),  # of whatever it may be
     ],
 )
 def test_a_label_that_goes_on_and_a_value_that_is_not_given(label: str, text: str, sure: bool) -> None:
@@ -215,6 +216,11 @@ def test_what_the_rules_read_besides_speaks_against_a_model(
     assert (agreed(asked, missing(REACH), [one]).status == "ok") is heard
     if status == "review":
         assert agreed(asked, ruled, [one]).status != "ok"
+        alone = replace(ruled, candidates=ruled.candidates[:1])
+        assert agreed(asked, alone, [one]).status == "ok"
+        over = replace(one.match.claim.statement, section="The maximum reach of its class, for every job on every site")
+        praised = replace(one.match, claim=replace(one.match.claim, statement=over))
+        assert agreed(replace(asked, matches=(praised,)), alone, [one]).status != "ok"
 
 
 @pytest.mark.parametrize(("head_at", "section"), [(210.0, ""), (500.0, "Bucket options")])

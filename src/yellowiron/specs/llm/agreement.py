@@ -20,7 +20,7 @@ from yellowiron.specs.llm.doubts import Doubted, alike, is_answered, reads_same
 from yellowiron.specs.llm.page_reader import Pointed
 from yellowiron.specs.llm.pointing import Spot
 from yellowiron.specs.values.claims import configured_by, split_phrases
-from yellowiron.specs.values.contention import Match
+from yellowiron.specs.values.contention import Match, of_another_place
 from yellowiron.specs.values.cross_check import Nearby
 from yellowiron.specs.values.decision import Sheets, decide, evidence_of, missing, printed, settled
 from yellowiron.specs.values.requested import check_hint, hint_for
@@ -113,7 +113,10 @@ def _reads_another(by_rules: Specification, value: float) -> bool:
 
 
 def _is_contended(asked: Asked, by_rules: Specification) -> bool:
-    """Whether the nearest words give another number than the layout: "BIN WIDTH" between "3601" and "5612"."""
+    """Whether the nearest words give another number than the layout ("BIN WIDTH" between "3601" and "5612"), or what
+    stands over the value praises another machine or is a chart's."""
+    if any(of_another_place(m) for m in asked.matches if alike(_value(m), by_rules.value or 0.0)):
+        return True
     said = [by_rules.value or 0.0, *map(_value, asked.matches)]
     return any(not any(alike(c.value, one) for one in said) for c in by_rules.candidates)
 

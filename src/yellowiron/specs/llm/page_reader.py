@@ -48,6 +48,8 @@ _GOES_ON = re.compile(
 """How a label ends that goes on elsewhere: "Maximum reach at", and below it "ground level"."""
 _EMPTY = re.compile(r"^\s*[-–—]+\s*/|/\s*[-–—]+\s*$")
 """One of two values that is not given: "- / 25" of "laden/unladen"."""
+_ANYTHINGS = frozenset({"height", "length", "width", "depth", "diameter", "weight", "speed", "capacity"})
+"""What anything has, a blade as a machine: such a label alone says in full of what it is only to the rules."""
 _LOW, _HIGH = frozenset({"minimum", "retracted", "low"}), frozenset({"maximum", "extended", "high"})
 
 
@@ -232,6 +234,7 @@ def _judged(
     shared = [m for w in rivals for m in told[w.name] if m.score > best.score - 1e-9]
     label = place.statement.label.rstrip()
     whole = not (is_broken_off(label) or _GOES_ON.search(label) or _EMPTY.search(place.statement.text))
+    whole = whole and not set(tokens(label)) <= _ANYTHINGS
     sure = not (doubt or ranged or shared) and whole and chosen and usual(one, quantity.si_value) and says_in_full(best)
     return Pointed(replace(best, claim=replace(best.claim, ranged=ranged)), place, sure)
 
