@@ -163,6 +163,16 @@ def test_a_label_of_two_parts_on_a_row(labels: list[int], passes: bool) -> None:
     assert place_of(said, PageText(0, 1, cells), -1).statement.label == said["words"]
 
 
+def test_words_behind_another_number_of_the_cell_are_that_ones() -> None:
+    cell = Cell(1, 1, *2 * ("6° forward /12° mast tilt",), (36.0, 20.0, 160.0, 29.0), 10.0, "text", False)
+    said = {
+        "value_cell": 1, "value": "12", "label_cells": [1], "unit_cell": 0, "column_cell": 0, "footnote_cell": 0,
+        "words": "forward",
+    }  # fmt: skip
+    with pytest.raises(RefusedError, match="label is not the value's own"):
+        place_of(said, PageText(0, 1, (cell,)), -1)
+
+
 def pointed(label: str, text: str) -> Pointed:
     """What the gates make of an entry that points to a value and the label on its left."""
     cells = tuple(

@@ -153,7 +153,8 @@ def _label_of(value: Cell, begin: int, labels: Sequence[Cell], cells: Sequence[C
         ends = [q.end for r in read(value.text) for q in (*r.numbers, *r.partner) if q.end <= begin]
         before = re.sub(r"^[^\w]*(?:[^\W\d]+/?[^\W\d]*\s*\))?[\s)/;,.]*", "", value.text[max(ends, default=0) : begin])
         in_brackets = value.text[:begin].count("(") > value.text[:begin].count(")")  # a condition: "Height (at 45°)"
-        if in_brackets or not re.search(r"[^\W\d_]{2,}", before):
+        behind_another = bool(ends) and before.rstrip().endswith(("/", "-", "–"))  # "6° forward /12° mast tilt"
+        if in_brackets or behind_another or not re.search(r"[^\W\d_]{2,}", before):
             raise RefusedError("the label is not the value's own")
         return before.rstrip(" :("), True
     inside = re.search(r"[^\W\d_]{2,}[^:]*:", value.text[:begin]) is not None
