@@ -30,8 +30,12 @@ import os
 import resource
 import sys
 import tempfile
+from collections.abc import Callable, Iterator, Mapping
+from contextlib import contextmanager
 from dataclasses import dataclass, field
 from pathlib import Path
+from typing import Any
+from unittest import mock
 
 import pypdfium2
 from PIL import Image
@@ -44,8 +48,10 @@ from yellowiron.endpoint import ModelOptions  # noqa: E402
 from yellowiron.library import load_template  # noqa: E402
 from yellowiron.model.errors import SheetError  # noqa: E402
 from yellowiron.model.specification import Specification, Specifications  # noqa: E402
-from yellowiron.model.template import Template  # noqa: E402
-from yellowiron.specs.extraction import from_sheets, read  # noqa: E402
+from yellowiron.model.template import Template, Wanted  # noqa: E402
+from yellowiron.specs.extraction import by_rules, from_sheets, read, with_model  # noqa: E402
+from yellowiron.specs.llm import page_reader  # noqa: E402
+from yellowiron.specs.llm.pointing import PageText, Place, RefusedError  # noqa: E402
 from yellowiron.specs.reader import Sheet  # noqa: E402
 from yellowiron.support.units import parse_quantity  # noqa: E402
 
@@ -106,8 +112,13 @@ def first(value: Specification) -> float | None:
 
 def near(printed: str, value: float | None) -> bool:
     """Whether it is what the page prints, in either system of measurement ("10.9 m / 36 ft")."""
-    expected = [parse_quantity(one, where=printed)[0] for one in printed.split(" / ")]
+    expected = _expected(printed)
     return value is not None and any(abs(value - one) <= SLACK * abs(one) + 1e-9 for one in expected)
+
+
+@functools.cache
+def _expected(printed: str) -> tuple[float, ...]:
+    return tuple(parse_quantity(one, where=printed)[0] for one in printed.split(" / "))
 
 
 def judge(where: str, truth: dict[str, dict[str, object]], found: Specifications, config: str) -> Tally:
@@ -142,18 +153,50 @@ def judge(where: str, truth: dict[str, dict[str, object]], found: Specifications
     return tally
 
 
-def with_model(
+@contextmanager
+def answers_kept() -> Iterator[None]:
+    """What the gates say of an entry is asked once for all models that give it, on one reading."""
+    gate, place = page_reader.checked, page_reader.place_of
+    told: dict[tuple[object, ...], page_reader.Pointed | RefusedError] = {}
+    placed: dict[tuple[object, ...], Place | RefusedError] = {}
+
+    def entry(said: Mapping[str, object], text: PageText) -> tuple[object, ...]:
+        return (id(text), *(str(said[key]) for key in sorted(said) if key != "name"))
+
+    def kept(known: dict[Any, Any], key: tuple[object, ...], make: Callable[[], Any]) -> Any:
+        if key not in known:
+            try:
+                known[key] = make()
+            except RefusedError as why:
+                known[key] = why
+        if isinstance(known[key], RefusedError):
+            raise known[key]
+        return known[key]
+
+    def checked(one: Wanted | None, said: Mapping[str, object], text: PageText, *others: Any) -> Any:
+        key = (one.name if one else "", *entry(said, text))
+        return kept(told, key, lambda: gate(one, said, text, *others))
+
+    def place_of(said: Mapping[str, object], text: PageText, row: int) -> Any:
+        return kept(placed, entry(said, text), lambda: place(said, text, row))
+
+    with mock.patch.object(page_reader, "checked", checked), mock.patch.object(page_reader, "place_of", place_of):
+        yield
+
+
+def judged_with_model(
     kind: str, template: Template, sheet: Sheet, truth: dict[str, dict[str, object]], config: str, where: str
 ) -> Tally:
     """A reading with a played model: with the right one beside the rules what became of what they left open; with the
-    lying ones nothing but what is wrong."""
+    lying ones nothing but what is wrong. What does not depend on a model's words is made once for all of them."""
     known = {name: str(one["value"]).split(" / ")[0] for name, one in truth.items() if "value" in one}
     pages = {name: int(str(one["page"])) for name, one in truth.items()}
-    options = ModelOptions("played", "http://localhost", most_calls=10**6)
-    alone = from_sheets(template, [sheet], config=config)
+    options = ModelOptions("played", "http://localhost", most_calls=10**6, most_s=1e9)
+    ruled = by_rules(template, [sheet], config=config)
+    alone = ruled.specifications()
     if kind == "right":
         with at_hand(truthful(known, pages)):
-            found = from_sheets(template, [sheet], config=config, extractor="both", model=options)
+            found = with_model(ruled, "both", options)
         tally = judge(where, truth, found, config)
         for name, printed in known.items():
             before, after = alone.values.get(name), found.values.get(name)
@@ -174,13 +217,14 @@ def with_model(
     }
     seen = {one.name: one.evidence.page for one in alone if one.evidence is not None}
     lies = {**LIARS, "yes to the rules": lambda _: truthful(slips, seen)}
-    for name, liar in lies.items():
-        for extractor in ("both", "llm"):
-            with at_hand(liar(known)):
-                found = from_sheets(template, [sheet], config=config, extractor=extractor, model=options)  # type: ignore[arg-type]
-            lied = judge(f"{where} [{name}, {extractor}]", truth, found, config)
-            tally.wrong += lied.wrong
-            tally.faults += [fault for fault in lied.faults if fault.startswith("WRONG")]
+    with answers_kept():
+        for name, liar in lies.items():
+            for extractor in ("llm", "both"):
+                with at_hand(liar(known)):
+                    found = with_model(ruled, extractor, options)
+                lied = judge(f"{where} [{name}, {extractor}]", truth, found, config)
+                tally.wrong += lied.wrong
+                tally.faults += [fault for fault in lied.faults if fault.startswith("WRONG")]
     return tally
 
 
@@ -245,7 +289,7 @@ def main() -> None:
             where = f"{path.stem} {config}".strip()
             template = load(truth["type"])
             if arguments.model:
-                tally.add(with_model(arguments.model, template, sheet, reading["values"], config, where))
+                tally.add(judged_with_model(arguments.model, template, sheet, reading["values"], config, where))
                 continue
             found = from_sheets(template, [sheet], config=config)
             tally.seconds += (_seconds() - before) / len(truth["readings"])

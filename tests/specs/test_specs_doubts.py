@@ -2,6 +2,8 @@
 
 from __future__ import annotations
 
+import re
+from dataclasses import replace
 from pathlib import Path
 
 import pytest
@@ -9,17 +11,20 @@ from specs_layouts import canvas, leaders, put, template, wanted
 
 from kit.sheets.page_models import Entry, Question, at_hand
 from yellowiron.endpoint import ModelOptions
-from yellowiron.model.specification import Specification
+from yellowiron.model.specification import Candidate, Evidence, Specification
 from yellowiron.specs.extraction import from_sheets
 from yellowiron.specs.extraction import read as read_pdf
 from yellowiron.specs.language.quantities import Quantity
 from yellowiron.specs.layout.page_cells import Cell
 from yellowiron.specs.layout.statement import Statement
+from yellowiron.specs.llm.agreement import Asked, agreed
 from yellowiron.specs.llm.doubts import Doubted, is_answered
-from yellowiron.specs.llm.pointing import PageText, place_of
+from yellowiron.specs.llm.page_reader import Pointed, checked
+from yellowiron.specs.llm.pointing import PageText, RefusedError, place_of
 from yellowiron.specs.values.claims import Claim
 from yellowiron.specs.values.contention import Match
 from yellowiron.specs.values.cross_check import Nearby
+from yellowiron.specs.values.decision import Sheets, missing
 
 pytestmark = pytest.mark.usefixtures("read_here")
 
@@ -120,6 +125,112 @@ def test_what_stands_over_a_speed_and_what_its_row_is_called_by(
     found = Match(asked, claim, 1.0, "travel speed", rest)
     value = Specification("Travel Speed", 47 / 3.6, "m/s", "review", reason="doubted")
     assert is_answered(Doubted(asked, (asked,), (found,), None), value) is answered
+
+
+@pytest.mark.parametrize(("rest", "answered"), [((), True), (("mast",), False)])
+def test_a_unit_misprinted_for_another_is_told_by_the_range_where_the_label_says_all(
+    rest: tuple[str, ...], answered: bool
+) -> None:
+    asked = replace(template(wanted("Lift Speed", "speed", "lift speed")).wanted[0], minimum=0.05, maximum=1.5)
+    statement = Statement(1, 1, "Lift speed", "530 m/s", (36.0, 589.0, 80.0, 600.0), "Lift speed … 530 m/s")
+    claim = Claim(statement, "Lift speed", "", Quantity(530.0, "m/s", 0.5, "530 m/s", 0, 7))
+    found = Match(asked, claim, 1.0, "lift speed", rest)
+    value = Specification("Lift Speed", 0.53, "m/s", "review", reason="'530 m/s' is outside what is usual")
+    assert is_answered(Doubted(asked, (asked,), (found,), None), value) is answered
+    beside = replace(found, claim=replace(claim, quantity=Quantity(0.5, "m/s", 0.05, "0.5", 3, 6)))  # "2) 1955"
+    assert not is_answered(Doubted(asked, (asked,), (found, beside), None), value)
+
+
+@pytest.mark.parametrize(("labels", "passes"), [([1, 2], True), ([2], True), ([1], False), ([1, 4], False)])
+def test_a_label_of_two_parts_on_a_row(labels: list[int], passes: bool) -> None:
+    """Both are said, or the nearer one; not the farther one alone, nor what is another row's."""
+    shown = [
+        (36.0, 20.0, "Turning radius", "text"), (120.0, 20.0, "minimum outside", "text"),
+        (210.0, 20.0, "2.05 m", "value"), (36.0, 60.0, "Ground clearance", "text"), (210.0, 60.0, "0.12 m", "value"),
+    ]  # fmt: skip
+    cells = tuple(
+        Cell(1, int(y), words, words, (x0, y, x0 + 70.0, y + 9.0), 10.0, kind, False) for x0, y, words, kind in shown
+    )
+    said = {
+        "value_cell": 3, "value": "2.05", "label_cells": labels, "unit_cell": 0, "column_cell": 0, "footnote_cell": 0,
+        "words": "",
+    }  # fmt: skip
+    said["words"] = " ".join(cells[n - 1].text for n in labels)
+    if not passes:
+        with pytest.raises(RefusedError, match="label is not the value's own"):
+            place_of(said, PageText(0, 1, cells), -1)
+        return
+    assert place_of(said, PageText(0, 1, cells), -1).statement.label == said["words"]
+
+
+def test_words_behind_another_number_of_the_cell_are_that_ones() -> None:
+    cell = Cell(1, 1, *2 * ("6° forward /12° mast tilt",), (36.0, 20.0, 160.0, 29.0), 10.0, "text", False)
+    said = {
+        "value_cell": 1, "value": "12", "label_cells": [1], "unit_cell": 0, "column_cell": 0, "footnote_cell": 0,
+        "words": "forward",
+    }  # fmt: skip
+    with pytest.raises(RefusedError, match="label is not the value's own"):
+        place_of(said, PageText(0, 1, (cell,)), -1)
+
+
+def pointed(label: str, text: str) -> Pointed:
+    """What the gates make of an entry that points to a value and the label on its left."""
+    cells = tuple(
+        Cell(1, 1, words, words, (x0, 20.0, x0 + 60.0, 29.0), 10.0, kind, False)
+        for x0, words, kind in ((36.0, label, "text"), (200.0, text, "value"))
+    )
+    said = {
+        "name": REACH.name, "value_cell": 2, "value": re.findall(r"[\d.,]+", text)[0], "label_cells": [1],
+        "unit_cell": 0, "column_cell": 0, "footnote_cell": 0, "words": label,
+    }  # fmt: skip
+    return checked(REACH, said, PageText(0, 1, cells), -1, "point", (REACH,), (), "")
+
+
+REACH = template(wanted("Maximum Reach", "length", "maximum reach", "length")).wanted[0]
+
+
+@pytest.mark.parametrize(
+    ("label", "text", "sure"),
+    [
+        ("Maximum reach", "12,580 mm", True),
+        ("Maximum reach at", "12,580 mm", False),  # below it stands "ground level"
+        ("Maximum reach", "- / 12.58 m", False),  # of one of two things only
+        ("Length", "12.58 m", False),  # of whatever it may be
+    ],
+)
+def test_a_label_that_goes_on_and_a_value_that_is_not_given(label: str, text: str, sure: bool) -> None:
+    assert pointed(label, text).sure is sure
+
+
+@pytest.mark.parametrize(
+    ("status", "values", "heard"),
+    [
+        ("missing", (), True),
+        ("ok", (12.58,), True),
+        ("ok", (11.9,), False),
+        ("conflict", (11.9, 12.58), False),
+        ("review", (12.58, 11.9), False),  # the nearest words give another number than the layout
+    ],
+)
+def test_what_the_rules_read_besides_speaks_against_a_model(
+    status: str, values: tuple[float, ...], heard: bool
+) -> None:
+    """Also where only the model is asked for its word."""
+    one = pointed("Maximum reach", "12,580 mm")
+    evidence = Evidence("a.pdf", 1, "Maximum reach … 12 580 mm", (200.0, 20.0, 260.0, 29.0))
+    ruled = Specification(
+        REACH.name, values[0] if values and status != "conflict" else None, "m", status,  # type: ignore[arg-type]
+        evidence, "12,580 mm", candidates=tuple(Candidate(v, "m", evidence) for v in values),
+    )  # fmt: skip
+    asked = Asked(REACH, (REACH,), (one.match,), None, Sheets(("a.pdf",), {}), "", "m", ruled)
+    assert (agreed(asked, missing(REACH), [one]).status == "ok") is heard
+    if status == "review":
+        assert agreed(asked, ruled, [one]).status != "ok"
+        alone = replace(ruled, candidates=ruled.candidates[:1])
+        assert agreed(asked, alone, [one]).status == "ok"
+        over = replace(one.match.claim.statement, section="The maximum reach of its class, for every job on every site")
+        praised = replace(one.match, claim=replace(one.match.claim, statement=over))
+        assert agreed(replace(asked, matches=(praised,)), alone, [one]).status != "ok"
 
 
 @pytest.mark.parametrize(("head_at", "section"), [(210.0, ""), (500.0, "Bucket options")])

@@ -20,9 +20,11 @@ from yellowiron.specs.language.decimal_style import DecimalStyle, decimal_style
 from yellowiron.specs.layout.nearest import Near
 from yellowiron.specs.llm.agreement import Asked, agreed
 from yellowiron.specs.llm.page_reader import Reading, pages_of, read_pages
+from yellowiron.specs.llm.pointing import PageText
 from yellowiron.specs.machines import of_others, of_sisters, several, with_machines
 from yellowiron.specs.reader import TIMEOUT_S, PageRead, Sheet, check_file, in_child
 from yellowiron.specs.values.claims import Claim, claims_of, in_only_unit
+from yellowiron.specs.values.contention import Match
 from yellowiron.specs.values.cross_check import Nearby, second_reading, stands_in
 from yellowiron.specs.values.decision import Column, Sheets, decide, missing, placed, quantity_words
 from yellowiron.specs.values.matching import match
@@ -106,6 +108,43 @@ def from_sheets(
     progress: Callable[[str], None] = lambda words: None,
 ) -> Specifications:
     """`extract` on sheets that are already read."""
+    ruled = by_rules(template, sheets, config=config)
+    return ruled.specifications() if extractor == "rules" else with_model(ruled, extractor, model, progress=progress)
+
+
+@dataclass(frozen=True)
+class Ruled:
+    """What the rules make of `wanted` values on sheets, by name in `values`; `nearby`: what their second reading
+    brought; their `claims`, what is `known` of the sheets, `findings`. A model's word comes after it, whatever model
+    that is."""
+
+    sheets: Sequence[Sheet]
+    config: str
+    wanted: Sequence[Wanted]
+    values: Mapping[str, Specification]
+    nearby: Mapping[str, Nearby]
+    claims: Sequence[Claim]
+    known: Sheets
+    findings: Sequence[Finding]
+
+    @functools.cached_property
+    def pages(self) -> list[tuple[PageText, DecimalStyle]]:
+        """The pages that a model is shown, each with how its sheet writes decimals."""
+        return [(text, self.sheets[text.sheet].style) for text in pages_of([s.cells for s in self.sheets])]
+
+    @functools.cached_property
+    def matches(self) -> Mapping[str, Sequence[Match]]:
+        """How the claims speak of the values that are not read in another one's label."""
+        return match(self.claims, [w for w in self.wanted if w.in_label_of is None])
+
+    def specifications(self) -> Specifications:
+        """The rules' word alone."""
+        values = self.values if self.config else _of_several(self.values, self.sheets)
+        return Specifications(values, tuple(self.findings))
+
+
+def by_rules(template: Template, sheets: Sequence[Sheet], *, config: str = "") -> Ruled:
+    """What the rules make of the values that a template asks for."""
     wanted = asked(template)
     sheets = [_numbered(sheet, number) for number, sheet in enumerate(sheets)]
     (printed, recognised), known = _claimed(sheets, config), _known(sheets)
@@ -117,23 +156,33 @@ def from_sheets(
         values = _with_recognised(wanted, values, _claimed(again, config)[1], _known(again), config, again)
     claims = [*printed.claims, *recognised.claims]
     findings = [*unread_pages(sheets), *ignored_phrases(config, claims, known, sheets)]
-    if extractor != "rules":
-        if extractor == "llm":
-            values |= {w.name: missing(w) for w in wanted if w.in_label_of is None}
-        direct = [w for w in wanted if w.in_label_of is None]
-        open_ = [w for w in direct if values[w.name].status != "ok"]
-        pages = [(text, sheets[text.sheet].style) for text in pages_of([s.cells for s in sheets])]
-        ask = functools.partial(read_pages, open_, direct, pages, claims, config=config, progress=progress)
-        reading, more = _by_model(ask, model, alone=extractor == "llm")
-        matches = match(claims, direct) if reading.seen else {}
-        for one in open_:
-            own, second = matches.get(one.name, []), nearby.get(one.name)
-            heard = Asked(one, direct, own, second, known, config, model.model if model else "")
-            seen = reading.seen.get(one.name, [])
-            values[one.name] = agreed(heard, values[one.name], reading.found.get(one.name, []), seen)
-        findings += more
-    values = _of_pictures(wanted, values, sheets)
-    return Specifications(values if config else _of_several(values, sheets), tuple(findings))
+    return Ruled(sheets, config, wanted, _of_pictures(wanted, values, sheets), nearby, claims, known, findings)
+
+
+def with_model(
+    ruled: Ruled,
+    extractor: Extractor,
+    model: ModelOptions | None,
+    *,
+    progress: Callable[[str], None] = lambda words: None,
+) -> Specifications:
+    """The rules' word with that of a language model on what they leave open ("both"), or the model's alone ("llm")."""
+    values, sheets, config = dict(ruled.values), ruled.sheets, ruled.config
+    direct = [w for w in ruled.wanted if w.in_label_of is None]
+    if extractor == "llm":
+        values |= {w.name: missing(w) for w in direct}
+    open_ = [w for w in direct if values[w.name].status != "ok"]
+    ask = functools.partial(read_pages, open_, direct, ruled.pages, ruled.claims, config=config, progress=progress)
+    reading, more = _by_model(ask, model, alone=extractor == "llm")
+    for one in open_:
+        own = ruled.matches.get(one.name, []) if reading.seen else []
+        nearby, name = ruled.nearby.get(one.name), model.model if model else ""
+        heard = Asked(one, direct, own, nearby, ruled.known, config, name, ruled.values[one.name])
+        seen = reading.seen.get(one.name, [])
+        values[one.name] = agreed(heard, values[one.name], reading.found.get(one.name, []), seen)
+    values = _of_pictures(ruled.wanted, values, sheets)
+    heard_values = values if config else _of_several(values, sheets)
+    return Specifications(heard_values, (*ruled.findings, *more))
 
 
 def _with_recognised(

@@ -16,7 +16,7 @@ import re
 import zlib
 from collections.abc import Callable, Iterator, Mapping
 from contextlib import contextmanager
-from dataclasses import dataclass, replace
+from dataclasses import dataclass
 from typing import Any
 from unittest import mock
 
@@ -65,7 +65,7 @@ class Asked:
     words: frozenset[str]
 
 
-@dataclass(frozen=True)
+@dataclass(frozen=True, eq=False)
 class Question:
     """A question: the page's number and cells, what is wanted, which machine is meant, and the request's text."""
 
@@ -92,15 +92,11 @@ class Question:
         return sorted(found, key=lambda c: -c.y)
 
 
+@functools.lru_cache(maxsize=1024)
 def question_of(text: str) -> Question:
     """A question out of the words that are sent."""
     sheet = text[text.index("<sheet>") + 7 : text.index("</sheet>")].strip()
     rest = text[text.index("</sheet>") :]
-    cells = []
-    for number, line in enumerate(sheet.splitlines()):
-        if head := re.match(r"y=(-?\d+): ", line):
-            for m in re.finditer(r"\[(\d+) x=(-?\d+)-(-?\d+)\] (.*?)(?= \| \[\d+ x=|$)", line):
-                cells.append(Shown(int(m[1]), number, float(head[1]), float(m[2]), float(m[3]), m[4]))
     wanted = [
         Asked(m[1], m[2], frozenset(tokens(f"{m[1]} {m[3]}")))
         for m in re.finditer(r"^- (.*?) \((\w+)(?:;[^;)]*)?(?:; also called ([^)]*))?", rest, re.MULTILINE)
@@ -108,7 +104,26 @@ def question_of(text: str) -> Question:
     meant = re.search(r"The machine meant is: (.*)\. Take", rest)
     page = re.match(r"page (\d+)", sheet)
     assert page is not None
-    return Question(int(page[1]), tuple(cells), tuple(wanted), meant[1] if meant else "", text)
+    return Question(int(page[1]), _cells_of(sheet), tuple(wanted), meant[1] if meant else "", text)
+
+
+class _Cells(tuple["Shown", ...]):
+    """A page's cells, the same only as themselves: what is kept of a page is kept by them."""
+
+    __hash__ = object.__hash__
+
+    def __eq__(self, other: object) -> bool:
+        return self is other
+
+
+@functools.lru_cache(maxsize=1024)
+def _cells_of(sheet: str) -> _Cells:
+    cells = []
+    for number, line in enumerate(sheet.splitlines()):
+        if head := re.match(r"y=(-?\d+): ", line):
+            for m in re.finditer(r"\[(\d+) x=(-?\d+)-(-?\d+)\] (.*?)(?= \| \[\d+ x=|$)", line):
+                cells.append(Shown(int(m[1]), number, float(head[1]), float(m[2]), float(m[3]), m[4]))
+    return _Cells(cells)
 
 
 @dataclass(frozen=True)
@@ -127,13 +142,15 @@ def pairs(question: Question, asked: Asked) -> list[Pair]:
     return list(_shared(question.cells, asked))
 
 
-@functools.lru_cache(maxsize=4096)
+@functools.lru_cache(maxsize=16384)
 def _shared(cells: tuple[Shown, ...], asked: Asked) -> tuple[Pair, ...]:
-    said = _pairs(cells, asked.dimension)
-    return tuple(replace(p, share=len(asked.words & words) / max(len(words), 1)) for p, words in said)
+    return tuple(
+        Pair(p.cell, p.number, p.value, p.label, len(asked.words & words) / max(len(words), 1))
+        for p, words in _pairs(cells, asked.dimension)
+    )
 
 
-@functools.lru_cache(maxsize=16)
+@functools.lru_cache(maxsize=1024)
 def _labelled(cells: tuple[Shown, ...]) -> tuple[tuple[Shown, tuple[Shown, ...]], ...]:
     """The cells, those with a number each with the words before, beside, above and below it."""
     page = Question(0, cells, (), "", "")
@@ -151,7 +168,7 @@ def _labelled(cells: tuple[Shown, ...]) -> tuple[tuple[Shown, tuple[Shown, ...]]
     return tuple(found)
 
 
-@functools.lru_cache(maxsize=512)
+@functools.lru_cache(maxsize=4096)
 def _pairs(cells: tuple[Shown, ...], dimension: str) -> tuple[tuple[Pair, frozenset[str]], ...]:
     found: dict[tuple[int, str, float, int], tuple[Pair, frozenset[str]]] = {}
     for cell, labels in _labelled(cells):
@@ -177,6 +194,15 @@ def _pairs(cells: tuple[Shown, ...], dimension: str) -> tuple[tuple[Pair, frozen
     return tuple(found.values())
 
 
+def _between(question: Question, pair: Pair) -> list[Shown]:
+    """The words that go on with a label on its row, before the number: "Turning radius | minimum outside | mm"."""
+    row = sorted((c for c in question.cells if c.line == pair.cell.line), key=lambda c: c.x0)
+    if pair.label is pair.cell or pair.label not in row:
+        return []
+    words = row[row.index(pair.label) + 1 : row.index(pair.cell)]
+    return [c for c in words if c.is_text and not is_unit(c.text)]
+
+
 def entry(question: Question, asked: Asked, pair: Pair, **other: Any) -> Entry:
     """What a model says that points to a pair."""
     row = sorted((c for c in question.cells if c.line == pair.cell.line), key=lambda c: c.x0)
@@ -188,7 +214,8 @@ def entry(question: Question, asked: Asked, pair: Pair, **other: Any) -> Entry:
     headed = [c for c in question.above(pair.cell) if is_unit(c.text) or unit_in_label(c.text)[1]][:1]
     bare = not re.search(r"\d\s*[^\W\d]|[°\"']", pair.cell.text)
     said = {
-        "name": asked.name, "value_cell": pair.cell.number, "value": pair.number, "label_cells": [pair.label.number],
+        "name": asked.name, "value_cell": pair.cell.number, "value": pair.number,
+        "label_cells": [pair.label.number, *(c.number for c in _between(question, pair))],
         "unit_cell": beside[0].number if beside else 0, "column_cell": headed[0].number if headed and bare else 0,
         "footnote_cell": 0, "words": " ".join(re.findall(r"[^\W\d_]{2,}", pair.label.text)[-3:]),
     }  # fmt: skip
@@ -202,9 +229,29 @@ def entry(question: Question, asked: Asked, pair: Pair, **other: Any) -> Entry:
     return {**said, **other}
 
 
+@functools.lru_cache(maxsize=4096)
+def _quantity(printed: str) -> tuple[float, str]:
+    return parse_quantity(printed, where=printed)
+
+
 def _is(printed: str, value: float) -> bool:
-    expected = parse_quantity(printed, where=printed)[0]
+    return _alike(_quantity(printed)[0], value)
+
+
+def _alike(expected: float, value: float) -> bool:
     return abs(value - expected) <= 2e-3 * abs(expected) + 1e-9
+
+
+def _is_in_other_unit(printed: str, pair: Pair) -> bool:
+    """Whether a number is the printed one but for thousands, whatever unit its page gives it."""
+    said, number = re.match(r"[\d.]+", printed), pair.number.replace(",", "").replace(" ", "")
+    if said is None or not re.fullmatch(r"\d+(?:\.\d+)?", number):
+        return False
+    return any(_alike(float(said[0]) * times, float(number)) for times in (1.0, 1e3, 1e-3))
+
+
+_PLACES = 3
+"""Places at most that a truthful model names for a value, the likeliest first."""
 
 
 def _configured(question: Question, pair: Pair) -> bool:
@@ -212,17 +259,21 @@ def _configured(question: Question, pair: Pair) -> bool:
 
 
 def truthful(truths: Truths, pages: Mapping[str, int] | None = None) -> Model:
-    """Says where the page prints what a person read there, and nothing else; `pages`: on which page it was."""
+    """Says where the page prints what a person read there, beside which words, and nothing else; `pages`: on which
+    page it was."""
 
     def answer(question: Question) -> list[Entry]:
         found = []
         for asked in question.wanted:
             if asked.name not in truths or (pages and pages.get(asked.name, question.page) != question.page):
                 continue
-            right = [p for p in pairs(question, asked) if _is(truths[asked.name], p.value)]
-            if right:
-                best = max(right, key=lambda p: (_configured(question, p), p.share))
-                found.append(entry(question, asked, best))
+            every = pairs(question, asked)
+            right = [p for p in every if _is(truths[asked.name], p.value)]
+            # A unit printed for another ("530 m/s" of a lift speed in mm/s): the number is read all the same.
+            if not any(p.share for p in right):  # what has as many digits by chance is named by nothing
+                right = [p for p in every if p.share and _is_in_other_unit(truths[asked.name], p)] or right
+            right.sort(key=lambda p: (_configured(question, p), p.share), reverse=True)
+            found += [entry(question, asked, p) for p in right[:1] + [p for p in right[1:_PLACES] if p.share]]
         return found
 
     return answer
@@ -307,13 +358,11 @@ def _other_row(question: Question, asked: Asked, found: list[Pair], truths: Trut
 
 def _others_value(question: Question, asked: Asked, found: list[Pair], truths: Truths) -> Entry | None:
     """What the page prints of another wanted value, with that one's label, under the name asked for."""
-    others = [text for name, text in sorted(truths.items()) if name != asked.name]
-    wrong = [p for p in _false(asked, found, truths) if any(_is_so_much(text, p.value, asked) for text in others)]
+    told = (_quantity(text) for name, text in truths.items() if name != asked.name)
+    others = sorted({value for value, unit in told if unit == SI_UNIT.get(asked.dimension)})
+    wrong = [p for p in found if any(_alike(value, p.value) for value in others)]
+    wrong = _false(asked, wrong, truths)
     return entry(question, asked, max(wrong, key=lambda p: p.share)) if wrong else None
-
-
-def _is_so_much(printed: str, value: float, asked: Asked) -> bool:
-    return parse_quantity(printed, where=printed)[1] == SI_UNIT.get(asked.dimension) and _is(printed, value)
 
 
 def _near_miss(question: Question, asked: Asked, found: list[Pair], truths: Truths) -> Entry | None:

@@ -20,7 +20,7 @@ from yellowiron.specs.llm.doubts import Doubted, alike, is_answered, reads_same
 from yellowiron.specs.llm.page_reader import Pointed
 from yellowiron.specs.llm.pointing import Spot
 from yellowiron.specs.values.claims import configured_by, split_phrases
-from yellowiron.specs.values.contention import Match
+from yellowiron.specs.values.contention import Match, of_another_place
 from yellowiron.specs.values.cross_check import Nearby
 from yellowiron.specs.values.decision import Sheets, decide, evidence_of, missing, printed, settled
 from yellowiron.specs.values.requested import check_hint, hint_for
@@ -41,6 +41,8 @@ class Asked:
     sheets: Sheets
     config: str
     model: str
+    ruled: Specification | None = None
+    """The rules' word, also where only the model's is asked for."""
 
 
 def agreed(
@@ -63,7 +65,7 @@ def agreed(
         return _out_of_conflict(asked, by_rules, pointed)
     if own.value is None or not alike(by_rules.value, own.value):
         return _conflict(asked.wanted, by_rules, own)
-    if any(p.sure for p in pointed) or is_answered(doubted, by_rules):
+    if (any(p.sure for p in pointed) and not _is_contended(asked, by_rules)) or is_answered(doubted, by_rules):
         return replace(by_rules, status="ok", confidence=SURE, reason=_both(asked, pointed[0]), hint="")
     return replace(by_rules, reason=f"{by_rules.reason}; {asked.model} reads the same")
 
@@ -89,6 +91,7 @@ def _brought(asked: Asked, pointed: Sequence[Pointed]) -> Specification:
             )
     others = [m for m in asked.matches if not alike(settled(wanted, m.claim)[0].si_value, candidates[0].value)]
     sure = first.sure and len(candidates) == 1 and all(m.score < first.match.score for m in others)
+    sure = sure and not (asked.ruled and _reads_another(asked.ruled, candidates[0].value))
     return replace(
         missing(wanted),
         value=candidates[0].value,
@@ -100,6 +103,22 @@ def _brought(asked: Asked, pointed: Sequence[Pointed]) -> Specification:
         hint="" if sure else check_hint(wanted.name),
         candidates=tuple(candidates),
     )
+
+
+def _reads_another(by_rules: Specification, value: float) -> bool:
+    """Whether the rules read another number, or others beside this one, and not in vain: their `ok`, and what they
+    could not choose from, speaks against a model that points to one of them."""
+    own = [c.value for c in by_rules.candidates] + ([] if by_rules.value is None else [by_rules.value])
+    return any(not alike(one, value) for one in own)
+
+
+def _is_contended(asked: Asked, by_rules: Specification) -> bool:
+    """Whether the nearest words give another number than the layout ("BIN WIDTH" between "3601" and "5612"), or what
+    stands over the value praises another machine or is a chart's."""
+    if any(of_another_place(m) for m in asked.matches if alike(_value(m), by_rules.value or 0.0)):
+        return True
+    said = [by_rules.value or 0.0, *map(_value, asked.matches)]
+    return any(not any(alike(c.value, one) for one in said) for c in by_rules.candidates)
 
 
 def _out_of_conflict(asked: Asked, by_rules: Specification, pointed: Sequence[Pointed]) -> Specification:

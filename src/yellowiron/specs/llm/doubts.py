@@ -1,8 +1,8 @@
 """Which doubts of the rules a second reader answers that read the same number at the same place of the page.
 
 It answers what the layout left open: which words are a number's own, which row of several is meant, what a count is of.
-It does not answer what the page itself leaves open: a range, a sign, two systems that differ, a value that cannot be, a
-word that tells of a condition, of another body or of another wanted value.
+It does not answer what the page itself leaves open: a range, a sign, two systems that differ, a value that cannot be
+in any unit, a word that tells of a condition, of another body or of another wanted value.
 """
 
 from __future__ import annotations
@@ -20,9 +20,9 @@ from yellowiron.specs.llm.pointing import Spot
 from yellowiron.specs.values.claims import COUNTED_TOGETHER, PRINTED_FOR_A_FORCE
 from yellowiron.specs.values.contention import Match, of_another_place
 from yellowiron.specs.values.cross_check import Nearby
-from yellowiron.specs.values.decision import OF_OTHERS, is_broken_off, is_measures, settled
+from yellowiron.specs.values.decision import OF_OTHERS, WOULD_BE_USUAL, is_broken_off, is_measures, settled
 from yellowiron.specs.values.requested import phrases, usual
-from yellowiron.specs.values.tolerances import LEAST
+from yellowiron.specs.values.tolerances import LEAST, SURE
 
 _EQUAL = 1e-6
 """Relative difference of two readings of the same printed number."""
@@ -98,6 +98,10 @@ def _is_clear(doubted: Doubted, found: Match) -> bool:
     quantity, doubt = settled(doubted.wanted, replace(claim, doubt=""))
     told = claim.doubt.endswith((COUNTED_TOGETHER, PRINTED_FOR_A_FORCE))
     open_ = is_broken_off(statement.label) or any(map(is_measures, statement.column)) or of_another_place(found)
+    if doubt.endswith(WOULD_BE_USUAL) and not found.rest and found.score >= SURE:
+        # "530 m/s" where the label says a lift speed in full: the range leaves one unit, if nothing can be as printed.
+        as_printed = any(usual(doubted.wanted, m.claim.quantity.si_value) for m in doubted.matches)
+        doubt = doubt if as_printed else ""
     if doubt or (claim.doubt and not told) or claim.ranged or open_ or not usual(doubted.wanted, quantity.si_value):
         return False
     rest = set(found.rest) - (_GEARS if doubted.wanted.dimension == "speed" else set())

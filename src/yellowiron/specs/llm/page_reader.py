@@ -24,7 +24,7 @@ from yellowiron.specs.llm.pointing import PageText, Place, RefusedError, Spot, p
 from yellowiron.specs.llm.prompts import PLACES, places_on
 from yellowiron.specs.values.claims import Claim, claims_of, phrases_in, without_case
 from yellowiron.specs.values.contention import Match
-from yellowiron.specs.values.decision import settled
+from yellowiron.specs.values.decision import is_broken_off, settled
 from yellowiron.specs.values.matching import match, match_one, weakly
 from yellowiron.specs.values.requested import usual
 from yellowiron.specs.values.tolerances import LEAST
@@ -40,6 +40,16 @@ _SPOKEN = {
 """The word that a unit says by itself: what is printed in degrees is an angle."""
 _RANGE = re.compile(r"\s*(?:[-–—~～…]|to|bis|à|a|至)\s*", re.IGNORECASE)
 _TO = re.compile(r"\s(?:to|bis|à|a)$")
+_GOES_ON = re.compile(
+    r"\b(?:at|of|with|without|for|from|to|over|under|and|or|bei|mit|ohne|von|bis|und|oder|avec|sans|pour|de|du|et|ou|"
+    r"con|sin|para|del|y|o)$",
+    re.IGNORECASE,
+)
+"""How a label ends that goes on elsewhere: "Maximum reach at", and below it "ground level"."""
+_EMPTY = re.compile(r"^\s*[-–—]+\s*/|/\s*[-–—]+\s*$")
+"""One of two values that is not given: "- / 25" of "laden/unladen"."""
+_ANYTHINGS = frozenset({"height", "length", "width", "depth", "diameter", "weight", "speed", "capacity"})
+"""What anything has, a blade as a machine: such a label alone says in full of what it is only to the rules."""
 _LOW, _HIGH = frozenset({"minimum", "retracted", "low"}), frozenset({"maximum", "extended", "high"})
 
 
@@ -97,10 +107,7 @@ def read_pages(
             if one is not None and (spot := spot_of(said, text)) is not None:
                 reading.seen.setdefault(one.name, []).append(spot)
             try:
-                pointed = _checked(one, said, text, row, style, every, config)
-                read_so = [c for c in claims if _is_there(c, pointed)]
-                if not all(_is_sure(c, claims, pointed, every, config) for c in read_so):
-                    pointed = replace(pointed, sure=False)
+                pointed = checked(one, said, text, row, style, every, claims, config)
             except RefusedError as why:
                 reading.refused[str(why)] += 1
                 continue
@@ -123,6 +130,24 @@ def pages_of(cells: Sequence[Sequence[Cell]]) -> list[PageText]:
                 if sum(any(c.isdigit() for c in cell.text) for cell in part) >= _LEAST_NUMBERS
             ]
     return found
+
+
+def checked(
+    one: Wanted | None,
+    said: Mapping[str, object],
+    text: PageText,
+    row: int,
+    style: DecimalStyle,
+    every: Sequence[Wanted],
+    claims: Sequence[Claim],
+    config: str,
+) -> Pointed:
+    """An entry of an answer that passes the gates; it is sure where the rules' own words for the number, too, say the
+    value. `RefusedError` where it does not pass."""
+    pointed = _checked(one, said, text, row, style, every, config)
+    read_so = [c for c in claims if _is_there(c, pointed)]
+    sure = pointed.sure and all(_is_sure(c, claims, pointed, every, config) for c in read_so)
+    return replace(pointed, sure=sure)
 
 
 def _checked(
@@ -207,7 +232,10 @@ def _judged(
     # Of two values that one label may mean ("angle", "greatest angle") only the page can say which it is.
     told = match([best.claim], [one, *rivals])  # by its own name, too: "engine power" is no net power then
     shared = [m for w in rivals for m in told[w.name] if m.score > best.score - 1e-9]
-    sure = not (doubt or ranged or shared) and chosen and usual(one, quantity.si_value) and says_in_full(best)
+    label = place.statement.label.rstrip()
+    whole = not (is_broken_off(label) or _GOES_ON.search(label) or _EMPTY.search(place.statement.text))
+    whole = whole and not set(tokens(label)) <= _ANYTHINGS
+    sure = not (doubt or ranged or shared) and whole and chosen and usual(one, quantity.si_value) and says_in_full(best)
     return Pointed(replace(best, claim=replace(best.claim, ranged=ranged)), place, sure)
 
 

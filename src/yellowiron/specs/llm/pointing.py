@@ -7,6 +7,7 @@ right over or under it. The heading and the columns are the page's, whatever the
 
 from __future__ import annotations
 
+import functools
 import re
 from collections.abc import Mapping, Sequence
 from dataclasses import dataclass
@@ -152,20 +153,22 @@ def _label_of(value: Cell, begin: int, labels: Sequence[Cell], cells: Sequence[C
         ends = [q.end for r in read(value.text) for q in (*r.numbers, *r.partner) if q.end <= begin]
         before = re.sub(r"^[^\w]*(?:[^\W\d]+/?[^\W\d]*\s*\))?[\s)/;,.]*", "", value.text[max(ends, default=0) : begin])
         in_brackets = value.text[:begin].count("(") > value.text[:begin].count(")")  # a condition: "Height (at 45°)"
-        if in_brackets or not re.search(r"[^\W\d_]{2,}", before):
+        behind_another = bool(ends) and before.rstrip().endswith(("/", "-", "–"))  # "6° forward /12° mast tilt"
+        if in_brackets or behind_another or not re.search(r"[^\W\d_]{2,}", before):
             raise RefusedError("the label is not the value's own")
         return before.rstrip(" :("), True
     inside = re.search(r"[^\W\d_]{2,}[^:]*:", value.text[:begin]) is not None
-    others = any(c.kind != "text" and not words_beside_numbers(c.bare, read(c.bare)) for c in labels)
+    others = any(c.kind != "text" and not _says_words(c.bare) for c in labels)
     if value in labels or inside or others or any(re.search(r":\s*\S*\d", c.text) for c in labels):
         raise RefusedError("the label is not the value's own")
     own = [c for c in labels if _is_own(c, value, cells)]
     rest = [c for c in labels if c not in own]
     while rest:
-        joins = [c for c in rest if any(_follows(c, o) for o in own) and not _values_right_of(c, cells)]
+        joins = [c for c in rest if any(_leads_to(c, o, cells) for o in own)]
+        joins += [c for c in rest if any(_follows(c, o) for o in own) and not _values_right_of(c, cells)]
         if not joins:
             raise RefusedError("the label is not the value's own")
-        own += joins
+        own += [c for c in joins if c not in own]
         rest = [c for c in rest if c not in joins]
     return joined(c.bare for c in sorted(own, key=lambda c: (c.line, c.box[0]))), False
 
@@ -174,8 +177,8 @@ def _is_own(label: Cell, value: Cell, cells: Sequence[Cell]) -> bool:
     """Whether a label is a value's: the nearest words to the left on its row; or right over or under it, where no words
     are on its row and no other value on the label's."""
     level = _level(label.box, value.box)
-    left = [c for c in cells if _is_words(c, value) and c.box[2] <= value.box[0] + 1]
-    beside = [c for c in left if _level(c.box, value.box) >= _LEVEL]
+    left = [c for c in cells if c.box[2] <= value.box[0] + 1 and _level(c.box, value.box) >= _LEVEL]
+    beside = [c for c in left if _is_words(c, value)]
     if level >= _LEVEL and label.box[2] <= value.box[0] + 1:
         nearest = max(c.box[2] for c in beside) if beside else 0.0
         return label.box[2] >= nearest - 1 or not any(
@@ -193,15 +196,38 @@ def _is_own(label: Cell, value: Cell, cells: Sequence[Cell]) -> bool:
 
 def _is_words(cell: Cell, value: Cell) -> bool:
     """Whether a cell is words, and no value beside one that has words of its own ("6 x 19 IWRC ø10 mm")."""
-    if cell.kind != "text" or is_key(cell.bare) or is_key(unit_in_label(cell.bare)[0]):  # "h1", "b 10 (mm)"
+    if cell.kind != "text" or _is_key(cell.bare):
         return False
-    return value.kind != "text" or not any(q.unit for r in read(cell.text) for q in r.numbers)
+    return value.kind != "text" or not _has_unit(cell.text)
+
+
+@functools.lru_cache(maxsize=8192)
+def _is_key(text: str) -> bool:
+    """Whether a text is a drawing's key: "h1", "b 10 (mm)"."""
+    return is_key(text) or is_key(unit_in_label(text)[0])
+
+
+@functools.lru_cache(maxsize=8192)
+def _has_unit(text: str) -> bool:
+    return any(q.unit for r in read(text) for q in r.numbers)
+
+
+@functools.lru_cache(maxsize=8192)
+def _says_words(text: str) -> bool:
+    """Whether a text has words beside its numbers."""
+    return bool(words_beside_numbers(text, read(text)))
 
 
 def _follows(a: Cell, b: Cell) -> bool:
     """Whether two cells are lines of one text."""
     gap = max(a.box[1] - b.box[3], b.box[1] - a.box[3])
     return _meet(a.box, b.box) and gap < 0.9 * a.size and abs(a.size - b.size) < 0.6
+
+
+def _leads_to(left: Cell, right: Cell, cells: Sequence[Cell]) -> bool:
+    """Whether two cells are the parts of one row's label: "Turning radius | minimum outside | mm | 2,050"."""
+    beside = [c for c in cells if c.box[0] >= left.box[2] - 1 and _level(c.box, left.box) >= 0.5]
+    return bool(beside) and min(beside, key=lambda c: c.box[0]) is right
 
 
 def _values_right_of(label: Cell, cells: Sequence[Cell]) -> bool:
@@ -241,7 +267,7 @@ def _over(value: Cell, cells: Sequence[Cell]) -> tuple[Cell, ...]:
     """What may name a value's column: words above it, also with a number, and among them nothing wider than a table's
     cell would be."""
     return tuple(
-        c for c in _above(value, cells) if c.kind == "text" or words_beside_numbers(c.bare, read(c.bare))
+        c for c in _above(value, cells) if c.kind == "text" or _says_words(c.bare)
     )  # fmt: skip
 
 

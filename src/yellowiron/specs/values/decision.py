@@ -24,6 +24,8 @@ from yellowiron.support.units import SI_UNIT
 
 _NEAR = 0.15
 """Claims this much weaker than the best still have a say."""
+WOULD_BE_USUAL = "it would be usual"
+"""How the doubt ends about a value that can be so much only in a unit that makers print for another by mistake."""
 OF_OTHERS = "has a column of its own"
 """How the doubt ends about a value that stands in columns of other models alone."""
 _SAID = 0.5
@@ -399,7 +401,7 @@ def settled(wanted: Wanted, claim: Claim) -> tuple[Quantity, str]:
         told = f"'{printed(quantity)}' is outside what is usual for {wanted.name}"
         slipped = _as_slip(wanted, quantity)
         if slipped is not None:
-            quantity, told = slipped, f"{told}; in {slipped.unit} it would be usual"
+            quantity, told = slipped, f"{told}; in {slipped.unit} {WOULD_BE_USUAL}"
         doubt = doubt or told
     return quantity, doubt
 
