@@ -81,6 +81,12 @@ class Field:
         return np.flatnonzero(self.near)
 
     @cached_property
+    def lined(self) -> tuple[Ints, Ints, Floats]:
+        """The pieces at either end of the pairs `off`, and what each of these counts."""
+        one, other = np.ascontiguousarray(self.off.T)
+        return one, other, self.astray[one, other]
+
+    @cached_property
     def numbers(self) -> tuple[Ints, Ints, Ints, Ints]:
         """Where a piece's labels, and a bond's `exact`, begin; the pieces at either end of the bonds."""
         pieces, count = self.unary.shape
@@ -243,8 +249,11 @@ def scores_of(field: Field, labels: Ints) -> Floats:
     total += field.held[0] * near_held.sum(axis=1) + field.held[1] * exactly_held.sum(axis=1)
     total += played @ field.played[:-1]
     if len(field.off):
-        one, other = labels[:, field.off[:, 0]], labels[:, field.off[:, 1]]
-        total += (field.halves[one] & (one == other)) @ field.astray[field.off[:, 0], field.off[:, 1]]
+        one, other, counts = field.lined
+        label = labels.take(one, axis=1)
+        both = field.halves.take(label)
+        both &= label == labels.take(other, axis=1)
+        total += both @ counts
     return np.asarray(total)
 
 
