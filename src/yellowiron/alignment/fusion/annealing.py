@@ -59,6 +59,7 @@ class Annealing:
         ]
         self._rows = np.arange(chains)
         self._row_at = self._rows * count
+        self._places = np.tile(np.arange(count), chains)
         self._same = np.ones(count)
         self._same[-1] = 0.0
         self._joined = (field.joint < field.joints).astype(np.float64)
@@ -170,6 +171,7 @@ class Annealing:
                 scores += more
             self.put(p, np.argmax(scores, axis=1))
 
+    @np.errstate(divide="ignore")
     def move(self, temperature: float, rng: np.random.Generator) -> Floats:
         """Tries two bodies in each other's place, and two mirror images as another body, several times (Metropolis).
         Returns what the labels score (n,)."""
@@ -178,8 +180,7 @@ class Annealing:
             for other in (self._swapped(labels, rng), self._mirrored(labels, rng)):
                 changed = scores if other is labels else scores_of(self.field, other)
                 gain = changed - scores
-                with np.errstate(divide="ignore"):
-                    chance = np.log(rng.random(len(gain))) * temperature
+                chance = np.log(rng.random(len(gain))) * temperature
                 taken = (gain > 0) | (gain > chance)
                 labels = np.where(taken[:, None], other, labels)
                 scores = np.where(taken, changed, scores)
@@ -192,7 +193,7 @@ class Annealing:
         one = labels[rows, rng.integers(labels.shape[1], size=len(labels))]
         two = rng.integers(none, size=len(labels))
         two = np.where(one == none, none, two)
-        places = np.tile(np.arange(none + 1), len(labels))
+        places = self._places.copy()
         places[self._row_at + one], places[self._row_at + two] = two, one
         return places.take(self._row_at[:, None] + labels)
 

@@ -232,7 +232,8 @@ def _cylinders_before(template: Template) -> dict[str, frozenset[str]]:
     return found
 
 
-def joints_apart(template: Template) -> dict[tuple[str, str], int]:
+@remembered
+def joints_apart(template: Template) -> Mapping[tuple[str, str], int]:
     """(body, body) → how many joints lead from one to the other; pairs that none lead between are left out."""
     graph = networkx.Graph([template.bodies_of(j) for j in template.joints])
     reached = networkx.all_pairs_shortest_path_length(graph)

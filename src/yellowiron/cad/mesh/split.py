@@ -255,11 +255,11 @@ def _mirrored(corners: Floats, number: NDArray[np.int64], middle: Floats, across
     """Which triangles (n,) are beyond a plane through `middle`, square to `across`, if those before it are as large and
     no solid (`number`, by triangle) is on both sides; None otherwise. `corners` (n, 3, 3)."""
     normal = across / np.linalg.norm(across)
-    side = (corners - middle) @ normal
+    a, b, c = ((corners - middle) @ normal).T
     low, high = (np.full(int(number.max()) + 1, sign * np.inf) for sign in (1.0, -1.0))
-    np.minimum.at(low, number, side.min(axis=1))
-    np.maximum.at(high, number, side.max(axis=1))
-    beyond: NDArray[np.bool_] = side.mean(axis=1) > 0.0
+    np.minimum.at(low, number, np.minimum(np.minimum(a, b), c))
+    np.maximum.at(high, number, np.maximum(np.maximum(a, b), c))
+    beyond: NDArray[np.bool_] = a + b + c > 0.0
     if ((low < 0.0) & (high > 0.0)).any() or beyond.all() or not beyond.any():
         return None
     near, far = corners[~beyond].reshape(-1, 3), corners[beyond].reshape(-1, 3)
