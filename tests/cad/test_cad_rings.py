@@ -116,9 +116,15 @@ def test_what_is_not_fitted_would_be_no_wall(seed: int, monkeypatch: pytest.Monk
     shapes = [(7 + 2 * (k % 9), 1.0 - 0.1 * (k % 5), 0.03 * (k % 4)) for k in range(20)]
     meshes = [_prism(*(0.1 * _oval(count, ratio, rng, noise) for _ in "ab"), 0.3) for count, ratio, noise in shapes]
     refused: list[bool] = []
-    known = rings._is_no_wall
-    monkeypatch.setattr(rings, "_is_no_wall", lambda *given: refused.append(known(*given)) or refused[-1])
+
+    def refusing(*given: Array) -> Array:
+        found: Array = known(*given)
+        refused.extend(found.tolist())
+        return found
+
+    known = rings._are_no_walls
+    monkeypatch.setattr(rings, "_are_no_walls", refusing)
     found = [facets.find(mesh).cylinders for mesh in meshes]
-    monkeypatch.setattr(rings, "_is_no_wall", lambda *_: False)
+    monkeypatch.setattr(rings, "_are_no_walls", lambda corners, starts: np.zeros(len(starts), dtype=bool))
     assert found == [facets.find(mesh).cylinders for mesh in meshes]
     assert any(refused) and not all(refused)

@@ -81,6 +81,7 @@ class Annealing:
         self._alike, self._ordered = (
             frozenset(p for p, columns in enumerate(self._columns) if columns[what].any()) for what in (ALIKE, FARTHER)
         )
+        self._settled: Ints | None = None
         self.take(labels)
 
     def _at_joints(self) -> tuple[Ints, Ints]:
@@ -163,13 +164,16 @@ class Annealing:
     def sweep(self, temperature: float, rng: np.random.Generator) -> None:
         """Every piece once, in a random order; without temperature: to its best label."""
         order = rng.permutation(self.labels.shape[1]).tolist()
-        hot = temperature > 0
-        noise = temperature * rng.gumbel(size=(len(order), *self.played.shape)) if hot else np.zeros(len(order))
-        for p, more in zip(order, noise, strict=True):
-            scores = self.conditional(p)
-            if hot:
-                scores += more
-            self.put(p, np.argmax(scores, axis=1))
+        if temperature > 0:
+            noise = temperature * rng.gumbel(size=(len(order), *self.played.shape))
+            for p, more in zip(order, noise, strict=True):
+                self.put(p, np.argmax(self.conditional(p) + more, axis=1))
+        elif self._settled is None or not np.array_equal(self._settled, self.labels):
+            before = self.labels.copy()
+            for p in order:
+                self.put(p, np.argmax(self.conditional(p), axis=1))
+            # Where nothing changed, nothing will in any order.
+            self._settled = self.labels.copy() if np.array_equal(before, self.labels) else None
 
     @np.errstate(divide="ignore")
     def move(self, temperature: float, rng: np.random.Generator) -> Floats:

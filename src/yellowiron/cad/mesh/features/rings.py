@@ -116,9 +116,15 @@ def _walls(soup: Soup, free: Flags, direction: Floats) -> Iterator[Indices]:
     size = np.bincount(label, weights=soup.areas)
     net: Floats = np.stack([np.bincount(label, weights=soup.areas * soup.normals[:, k]) for k in range(3)], axis=1)
     net = net - np.outer(net @ direction, direction)
+    chosen = np.flatnonzero((count >= _CORNERS) & (np.linalg.norm(net, axis=1) < _ALL_ROUND * size))
+    if not len(chosen):
+        return
     members = _members(label)
-    for k in np.flatnonzero((count >= _CORNERS) & (np.linalg.norm(net, axis=1) < _ALL_ROUND * size)).tolist():
-        yield members(k)
+    walls = [members(k) for k in chosen.tolist()]
+    corners = soup.points[soup.corners[np.concatenate(walls)]] @ np.stack(across(direction)).T
+    for rows, no_wall in zip(walls, _are_no_walls(corners, np.cumsum([0, *map(len, walls)])[:-1]), strict=True):
+        if not no_wall:
+            yield rows
 
 
 def _members(label: Indices) -> Callable[[int], Indices]:
@@ -135,7 +141,7 @@ def _ring(soup: Soup, rows: Indices, direction: Floats) -> Ring | None:
         return None
     basis = np.stack(across(direction))
     flat = points @ basis.T
-    circle = _circle(flat, lambda: _chord(soup, rows, basis))
+    circle = _circle(flat)
     if circle is None:
         return None
     center, radius = circle
@@ -184,22 +190,14 @@ def _height(found: Round, wide: float) -> float:
     return found.radius * (1.0 - math.cos(0.5 * min(wide, _FOLD)))
 
 
-def _chord(soup: Soup, rows: Indices, basis: Floats) -> float:
-    """The longest side of a wall's facets as seen along its direction, which `basis` (2, 3) is square to."""
-    corners = soup.points[soup.corners[rows]] @ basis.T
-    sides = corners - corners[:, (1, 2, 0)]
-    return math.sqrt(float((sides * sides).sum(axis=2).max()))
-
-
-def _circle(points: Floats, chord: Callable[[], float]) -> tuple[Floats, float] | None:
-    """Centre and radius of the circle that points (n, 2) are nearest to: the algebraic fit, then Gauss-Newton. None
-    where there is no circle that they could be a wall's on, whose facets are no longer than `chord`."""
+def _circle(points: Floats) -> tuple[Floats, float] | None:
+    """Centre and radius of the circle that points (n, 2) are nearest to: the algebraic fit, then Gauss-Newton."""
     middle = points.mean(axis=0)
     moved = points - middle
     matrix = np.empty((len(moved), 3))
     matrix[:, :2], matrix[:, 2] = 2.0 * moved, 1.0
-    solved, residual, rank, _ = np.linalg.lstsq(matrix, (moved**2).sum(axis=1), rcond=1e-9)
-    if rank < 3 or (len(residual) and _is_no_wall(moved, math.sqrt(float(residual[0]) / len(moved)), chord())):
+    solved, _, rank, _ = np.linalg.lstsq(matrix, (moved**2).sum(axis=1), rcond=1e-9)
+    if rank < 3:
         return None
     center, radius = solved[:2], math.sqrt(max(0.0, float(solved[2] + solved[:2] @ solved[:2])))
     for _ in range(4):
@@ -211,17 +209,32 @@ def _circle(points: Floats, chord: Callable[[], float]) -> tuple[Floats, float] 
     return (middle + center, radius) if radius > 0.0 else None
 
 
-def _is_no_wall(points: Floats, least: float, chord: float) -> bool:
-    """Whether points (n, 2) are too far from every circle to be a wall's, so that none need be fitted. `least`: the
-    root mean square of d² - r² (d: distances from a circle's centre, r: its radius), of the circle for which that is
-    least; `chord`: the longest side of the facets.
+def _are_no_walls(corners: Floats, starts: Indices) -> Flags:
+    """(walls,) which pieces are too far from every circle to be walls, so that none need be fitted to them. `corners`
+    (m, 3, 2): those of their triangles, seen along the direction, piece after piece from `starts` on.
 
-    If they stray by s from some circle, |d² - r²| <= s (2 r + s) for each of them, so that this is no less than
-    `least`. As a wall's, s is no more than `_STRAY` of the height h of the arc over the widest facet, and a little. h
-    is at most r (1 - cos(_FOLD / 2)); and as that facet's corners are no nearer to the centre than r - s, its side c is
-    at least 2 (r - s) sin(w / 2) where it covers w, so that h = 2 r sin²(w / 4) is at most r (c / (r - s))² / 7.3. And
-    r is bounded by the points' extent along any direction, as the gaps between them are no wider than `_GAP`."""
+    If corners stray by s from some circle of radius r, |d² - r²| <= s (2 r + s) for the distance d of each of them from
+    its centre: this is no less than the root mean square of d² - r², and that no less than where it is least, which is
+    a linear fit. As a wall's, s is no more than `_STRAY` of the height h of the arc over the widest facet, and a
+    little. h is at most r (1 - cos(_FOLD / 2)); and as that facet's corners are no nearer to the centre than r - s, its
+    longest side c is at least 2 (r - s) sin(w / 2) where it covers w, so that h = 2 r sin²(w / 4) is at most
+    r (c / (r - s))² / 7.3. And r is bounded by the corners' extent along any direction, as the gaps between them are no
+    wider than `_GAP`."""
+    count = 3.0 * np.diff(np.append(starts, len(corners)))
+    sides = corners - corners[:, (1, 2, 0)]
+    chord = np.maximum.reduceat((sides * sides).sum(axis=2).max(axis=1), starts)
+    low, high = np.minimum.reduceat(corners.min(axis=1), starts), np.maximum.reduceat(corners.max(axis=1), starts)
     most = _STRAY * (1.0 - math.cos(0.5 * _FOLD)) + ROUGH
-    radius = float(np.ptp(points, axis=0).min()) / (2.0 * (1.0 - most) * math.cos(0.5 * _GAP))
-    by_chord = _STRAY * (chord / (1.0 - most)) ** 2 / 7.3 + ROUGH * radius**2
-    return 1.001 * (2.0 + most) * min(most * radius**2, by_chord) < least
+    radius = (high - low).min(axis=1) / (2.0 * (1.0 - most) * math.cos(0.5 * _GAP))
+    by_chord = _STRAY * chord / (7.3 * (1.0 - most) ** 2) + ROUGH * radius**2
+    # The fit of d² - r² about the middle of the corners, where their sums are 0.
+    middle = np.add.reduceat(corners.sum(axis=1), starts) / count[:, None]
+    x, y = (corners - np.repeat(middle, np.diff(np.append(starts, len(corners))), axis=0)[:, None]).transpose(2, 0, 1)
+    square = x * x + y * y
+    sums = [x * x, x * y, y * y, square, square * square, x * square, y * square]
+    xx, xy, yy, one, two, by_x, by_y = (np.add.reduceat(values.sum(axis=1), starts) for values in sums)
+    with np.errstate(divide="ignore", invalid="ignore"):
+        told = (by_x * by_x * yy - 2.0 * by_x * by_y * xy + by_y * by_y * xx) / (xx * yy - xy * xy)
+        least = (two - one * one / count - told - 1e-6 * two) / count
+    sure = xx * yy - xy * xy > 1e-6 * (xx + yy) ** 2
+    return np.asarray(sure & ((1.001 * (2.0 + most) * np.minimum(most * radius**2, by_chord)) ** 2 < least))
