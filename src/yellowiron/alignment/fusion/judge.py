@@ -87,6 +87,11 @@ class Field:
         return one, other, self.astray[one, other]
 
     @cached_property
+    def none(self) -> Ints:
+        """(pieces,) a number for each that is no label's and no other piece's."""
+        return -1 - np.arange(len(self.unary))
+
+    @cached_property
     def exactly(self) -> tuple[Ints, Ints]:
         """The bonds that may hold a joint exactly, and where their `exact` begin."""
         bonds = np.flatnonzero(self.exact.any(axis=1))
@@ -261,10 +266,9 @@ def scores_of(field: Field, labels: Ints) -> Floats:
     total += played[:, :-1] @ field.played[:-1]
     if len(field.off):
         one, other, counts = field.lined
-        label = labels.take(one, axis=1)
-        both = field.halves.take(label)
-        both &= label == labels.take(other, axis=1)
-        total += both @ counts
+        # What is no half is like nothing else.
+        like = np.where(field.halves.take(labels), labels, field.none).astype(np.int32)
+        total += (like.take(one, axis=1) == like.take(other, axis=1)) @ counts
     return np.asarray(total)
 
 
