@@ -150,6 +150,19 @@ def test_conditionals_are_differences_of_the_score(excavator: Template, seed: in
         assert found[one] - found[labels[piece]] == pytest.approx(gain, abs=1e-6)
 
 
+def test_labels_that_have_settled_are_mended_again_once_they_are_others(excavator: Template) -> None:
+    field = field_of([{"boom": {"name": 1.0}, "arm": {"name": 0.5}}] * 3, [_bond(0, 1)], excavator, weights())
+    nothing = np.full((2, 3), len(field.bodies), dtype=np.int64)
+    state, rng = Annealing(field, nothing), np.random.default_rng(0)
+    for _ in range(4):
+        state.sweep(0.0, rng)
+    settled = state.labels.copy()
+    assert (settled == field.bodies.index("boom")).all()
+    state.take(nothing)
+    state.sweep(0.0, rng)
+    assert (state.labels == settled).all()
+
+
 def test_a_body_nothing_names_borrows_its_neighbours_name(excavator: Template) -> None:
     said = borrowed([{"arm": 1.0}, {"bucket": 1.0}], excavator)
     assert said[0]["boom"] == pytest.approx(LENT)

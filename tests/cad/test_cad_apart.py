@@ -213,6 +213,16 @@ def test_hydraulic_cylinders_are_taken_out_of_the_mesh_that_they_are_drawn_into(
     assert len(two) == 3 and set(two[1:]) == {(0.0, 0.6), (0.45, 0.95)}
 
 
+def test_a_solid_is_measured_once_however_its_mesh_comes_apart() -> None:
+    boom = box("boom", 0.5, 4.0, 0.5).mesh
+    barrel, rod = barrel_and_rod()
+    whole = assembly_of(merged(boom, moved(barrel, 1.0, 0.0, 0.0), moved(rod, 1.0, 0.0, 0.0)))
+    one, other = rams_apart(whole), taken_apart(whole)
+    rams = [one.shape_of(part) for part in one.parts[1:]]
+    assert len(rams) == 2
+    assert all(any(shape is other.shape_of(part) for part in other.parts) for shape in rams)
+
+
 def test_a_mesh_that_is_a_cylinder_comes_apart() -> None:
     assert rest_and_rams(plain()) == [(0.0, 0.7), (0.7, 1.2)]
     assert [p.id for p in rams_apart(assembly_of(plain())).parts] == ["m0/1", "m0/2"]

@@ -8,7 +8,7 @@ import numpy as np
 import pytest
 
 from kit.machines.solids import Array, box, plate
-from yellowiron.cad.mesh.features import facets
+from yellowiron.cad.mesh.features import facets, rings
 from yellowiron.cad.mesh.measures import compacted
 from yellowiron.model.geometry import Mesh
 
@@ -102,3 +102,29 @@ def test_a_bore_whose_corners_were_moved_is_a_bore() -> None:
 
 def test_a_block_is_not_round() -> None:
     assert facets.find(compacted(box("block", 0.3, 0.2, 0.1).mesh)).cylinders == ()
+
+
+def _oval(count: int, ratio: float, rng: np.random.Generator, noise: float) -> Array:
+    """Corners of an oval of two radii, each off by up to a share of them."""
+    turns = np.sort(rng.random(count) + np.arange(count)) * math.tau / count
+    return np.asarray((np.cos(turns) + 1j * ratio * np.sin(turns)) * (1.0 + noise * (rng.random(count) - 0.5)))
+
+
+@pytest.mark.parametrize("seed", range(8))
+def test_what_is_not_fitted_would_be_no_wall(seed: int, monkeypatch: pytest.MonkeyPatch) -> None:
+    rng = np.random.default_rng(seed)
+    shapes = [(7 + 2 * (k % 9), 1.0 - 0.1 * (k % 5), 0.03 * (k % 4)) for k in range(20)]
+    meshes = [_prism(*(0.1 * _oval(count, ratio, rng, noise) for _ in "ab"), 0.3) for count, ratio, noise in shapes]
+    refused: list[bool] = []
+
+    def refusing(*given: Array) -> Array:
+        found: Array = known(*given)
+        refused.extend(found.tolist())
+        return found
+
+    known = rings._are_no_walls
+    monkeypatch.setattr(rings, "_are_no_walls", refusing)
+    found = [facets.find(mesh).cylinders for mesh in meshes]
+    monkeypatch.setattr(rings, "_are_no_walls", lambda corners, starts: np.zeros(len(starts), dtype=bool))
+    assert found == [facets.find(mesh).cylinders for mesh in meshes]
+    assert any(refused) and not all(refused)

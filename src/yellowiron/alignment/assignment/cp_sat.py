@@ -114,7 +114,7 @@ def solve(
         _add_order(program, group, len(structure.clusters))
     if without in program.x:
         program.model.add(program.x[without] == 0)
-    total = sum(weight * v for weight, v in program.terms)
+    total = cp_model.LinearExpr.weighted_sum([v for _, v in program.terms], [weight for weight, _ in program.terms])
     if at_least is not None:
         program.model.add(total >= at_least)
     program.model.maximize(total)
@@ -231,6 +231,8 @@ def _add_joint(
 ) -> None:
     """z for every hinge or slide that a joint can be, each way round: one of them at most, and only between clusters
     that play the joint's bodies."""
+    from ortools.sat.python import cp_model
+
     first, second = template.bodies_of(joint)
     if first is None or second is None or first == second:
         return
@@ -252,7 +254,7 @@ def _add_joint(
             program.terms.append((JOINT_WEIGHT, z))
     model.add_at_most_one(every)
     for end, group in by_end.items():
-        model.add(sum(group) <= x[end])
+        model.add(cp_model.LinearExpr.sum(group) <= x[end])
 
 
 def _add_one_joint_each(program: _Program) -> None:

@@ -16,6 +16,7 @@ from yellowiron.alignment.assignment.sides import twin_role
 from yellowiron.alignment.structure.clusters import Structure
 from yellowiron.model.geometry import Floats
 from yellowiron.model.template import Template
+from yellowiron.support.caching.remembered import remembered
 
 ALIKE = 0.94
 """Hinges drawn this far from parallel (20°), by its cosine, are not of one linkage."""
@@ -23,7 +24,8 @@ NOT_ACROSS = 0.7
 """… and this near to it (45°) are not across each other."""
 
 
-def linkages_of(template: Template) -> tuple[dict[str, int], frozenset[int], frozenset[int]]:
+@remembered
+def linkages_of(template: Template) -> tuple[Mapping[str, int], frozenset[int], frozenset[int]]:
     """Hinge → the linkage of the type that it is in, for hinges in a closed one and between frames; which of the
     linkages turn frames on each other; and which of the others work tools: not those that steer wheels, which turn
     about the upright, too."""
@@ -55,14 +57,16 @@ def steering_joints(template: Template) -> frozenset[str]:
     return frozenset(joint for joint, number in linkage_of.items() if number not in frames | tools)
 
 
-def twin_linkages(template: Template, linkage_of: Mapping[str, int]) -> set[tuple[int, int]]:
+@remembered
+def twin_linkages(template: Template, linkage_of: Mapping[str, int]) -> frozenset[tuple[int, int]]:
     """The pairs of linkages of which one is the other's mirror image, such as two stabilizers': they lie alike."""
     by_pair = {frozenset(template.bodies_of(j)): linkage_of[j.name] for j in template.joints if j.name in linkage_of}
     found = {(k, by_pair.get(frozenset(twin_role(str(b)) or b for b in pair), k)) for pair, k in by_pair.items()}
-    return {(k, other) for k, other in found if k < other}
+    return frozenset((k, other) for k, other in found if k < other)
 
 
-def direction_classes(structure: Structure) -> tuple[list[int], list[Floats]]:
+@remembered
+def direction_classes(structure: Structure) -> tuple[Sequence[int], Sequence[Floats]]:
     """The hinges of a structure by their direction: the number of each one's class, and what each class is about
     parallel to."""
     firsts: list[Floats] = []

@@ -114,20 +114,28 @@ def _sides(
         return None
     # Walls of one outline on two plates are one side, those that face each other two.
     facing = (normal @ np.array([1.0, 1e-3]) > 0).astype(np.int64)
-    sides, which = np.unique(np.c_[ends, facing], axis=0, return_inverse=True)
-    which = which.ravel()
+    # One number a side: rows are slow to compare.
+    _, first, which = np.unique(
+        (ends[:, 0] * len(corner) + ends[:, 1]) * 2 + facing, return_index=True, return_inverse=True
+    )
+    sides = ends[first]
     low, high = np.full(len(sides), np.inf), np.full(len(sides), -np.inf)
     np.minimum.at(low, which, h.min(axis=1))
     np.maximum.at(high, which, h.max(axis=1))
     mean = np.zeros((len(sides), 2))
     np.add.at(mean, which, normal)
-    return sides[:, :2], corner, mean / np.maximum(np.linalg.norm(mean, axis=1), 1e-300)[:, None], low, high
+    return sides, corner, mean / np.maximum(np.linalg.norm(mean, axis=1), 1e-300)[:, None], low, high
 
 
 def _corners(flat: Floats, height: Floats, rows: NDArray[np.int64], cell: float) -> NDArray[np.int64]:
     """(n,) which corner of the outline each point is: those within a cell, and those that a wall's edge along the
     direction joins, however little that leans."""
-    first = np.unique(np.round(flat / cell).astype(np.int64), axis=0, return_inverse=True)[1].ravel()
+    place = np.round(flat / cell).astype(np.int64)
+    place -= place.min(axis=0)
+    wide = int(place[:, 1].max()) + 1
+    # One number a cell: rows are slow to compare, but for those that so many cells do not fit in.
+    cells = place[:, 0] * wide + place[:, 1] if float(place[:, 0].max()) * wide < 2.0**62 else None
+    first = np.unique(place if cells is None else cells, axis=0, return_inverse=True)[1].ravel()
     a = np.concatenate([rows[:, k] for k in range(3)])
     b = np.concatenate([rows[:, (k + 1) % 3] for k in range(3)])
     upright = np.linalg.norm(flat[a] - flat[b], axis=1) < 0.1 * np.abs(height[a] - height[b])

@@ -34,9 +34,9 @@ as the first of `KINDS` (the others follow)."""
 
 
 class Annealing:
-    """The state of `n` chains: their labels (n, pieces), and how often each joint is held (n, joints + 1: the last is
-    none) and each body played (n, labels). Its arrays are as the inner loop reads them: this is where recognition
-    spends its time."""
+    """The state of `n` chains: their labels (n, pieces), and how often each joint is held, nearly and exactly (2, n,
+    joints + 1: the last is none), and each body played (n, labels). Its arrays are as the inner loop reads them: this
+    is where recognition spends its time."""
 
     def __init__(self, field: Field, labels: Ints) -> None:
         self.field = field
@@ -58,38 +58,57 @@ class Annealing:
             for p, bonds in enumerate(at)
         ]
         self._rows = np.arange(chains)
+        self._row_at = self._rows * count
+        self._places = np.tile(np.arange(count), chains)
         self._same = np.ones(count)
         self._same[-1] = 0.0
         self._joined = (field.joint < field.joints).astype(np.float64)
         self._twins = field.twins.astype(np.float64)
-        self._astray = frozenset(np.flatnonzero(field.astray.any(axis=1)).tolist())
+        self._astray = [np.flatnonzero(row) for row in field.astray]
         # Of two labels there is one joint at most: its ends, and which labels it is at.
         first, second = np.nonzero(np.triu(field.joint < field.joints))
         ends = np.zeros((field.joints, 2), dtype=np.int64)
         ends[field.joint[first, second]] = np.column_stack([first, second])
         own, other = ends.T.ravel(), ends[:, ::-1].T.ravel()
         self._gains = np.eye(count)[own]
-        # Where, in what is around a piece, stands what holds each joint: its one end here, or the other.
-        there = self._rows[:, None] * count + other
-        self._nearly = NEAR * chains * count + there
-        self._exactly = (EXACT + np.tile(field.kind[:-1], 2)) * chains * count + there
-        self._exact_at = (EXACT + field.kind[field.joint]) * chains * count + np.arange(count)
-        # Where a chain's own counts begin, of joints and of labels.
-        self._joints_at = self._rows[:, None] * (field.joints + 1)
-        self._labels_at = self._rows[:, None] * count
+        # Where, in what is around a piece, stands what holds each joint, nearly and exactly: its one end here, then its
+        # other.
+        kinds = np.stack([np.full(2 * field.joints, NEAR), EXACT + np.tile(field.kind[:-1], 2)])
+        self._holds = (kinds[:, None] * chains + self._rows[:, None]) * count + other
+        self._from, self._to = self._at_joints()
+        self._each = np.array(field.held)[:, None, None]
+        # What a piece has no bonds for counts nothing.
+        self._alike, self._ordered = (
+            frozenset(p for p, columns in enumerate(self._columns) if columns[what].any()) for what in (ALIKE, FARTHER)
+        )
+        self._settled: Ints | None = None
         self.take(labels)
+
+    def _at_joints(self) -> tuple[Ints, Ints]:
+        """(n * labels, 2, m) by chain and label: where, in what is around a piece, stands what holds the label's `m`
+        joints nearly and exactly, and where that is counted; of labels with fewer joints, the others are none."""
+        field, chains, count = self.field, len(self._rows), len(self.field.joint)
+        joined = field.joint < field.joints
+        other = np.argsort(~joined, axis=1, kind="stable")[:, : int(joined.sum(axis=1).max())]
+        joint = np.take_along_axis(field.joint, other, axis=1)
+        kinds = np.stack([np.full_like(joint, NEAR), EXACT + field.kind[joint]], axis=1)
+        what = kinds * chains * count + other[:, None]
+        to = np.stack([joint, joint + chains * (field.joints + 1)], axis=1)
+        each = self._rows[:, None, None, None]
+        shape = (chains * count, 2, other.shape[1])
+        return (each * count + what).reshape(shape), (each * (field.joints + 1) + to).reshape(shape)
 
     def take(self, labels: Ints) -> None:
         """Goes on from these labels."""
         field, (pieces, count) = self.field, self.field.unary.shape
         self.labels = labels.copy()
-        self._is = np.zeros((pieces, len(labels), count))
-        self._is[np.arange(pieces), self._rows[:, None], labels] = 1.0
+        self._is = np.zeros((pieces, len(labels) * count))
+        self._is[np.arange(pieces), self._row_at[:, None] + labels] = 1.0
         held = field.joint[labels[:, field.ends[:, 0]], labels[:, field.ends[:, 1]]]
         exact = field.exact[np.arange(held.shape[1]), field.kind[held]]
-        self.near = self._counted(held, np.broadcast_to(field.near, held.shape), field.joints + 1)
-        self.exact = self._counted(held, exact, field.joints + 1)
-        self.played = self._is.sum(axis=0)
+        counted = [np.broadcast_to(field.near, held.shape), exact]
+        self.held = np.stack([self._counted(held, weights, field.joints + 1) for weights in counted])
+        self.played = self._is.sum(axis=0).reshape(len(labels), count)
 
     def _counted(self, numbers: Ints, weights: np.ndarray[Any, np.dtype[Any]], count: int) -> Floats:
         """(n, count) the sum of `weights` (n, m) by the `numbers` (n, m) they have, row by row."""
@@ -99,23 +118,18 @@ class Annealing:
 
     def _around(self, p: int) -> Floats:
         """(what is counted, n, labels) what the bonds of a piece count, by the label of what they lead to."""
-        others = self._is[self._others[p]]
-        found = self._columns[p] @ others.reshape(len(others), self.played.size)
+        found = self._columns[p] @ self._is.take(self._others[p], axis=0)
         return np.asarray(found.reshape(EXACT + len(KINDS), *self.played.shape))
 
     def _add(self, p: int, around: Floats, sign: int) -> None:
         """Counts a piece, with its labels, or (-1) no longer."""
-        labels = self.labels[:, p]
-        # A joint stands once in a row; the number for none may stand there often, and nothing reads its count.
-        at = self.field.joint.take(labels, axis=0)
-        at += self._joints_at
-        of_kind = self._exact_at.take(labels, axis=0)
-        of_kind += self._labels_at
-        count = np.add if sign > 0 else np.subtract
-        near, exact = self.near.reshape(-1), self.exact.reshape(-1)
-        near[at] = count(near.take(at), around[NEAR])
-        exact[at] = count(exact.take(at), around.reshape(-1).take(of_kind))
-        self.played[self._rows, labels] += sign
+        at = self._row_at + self.labels[:, p]
+        # A joint stands once in a row; none may stand there often, and nothing reads its count.
+        to, held = self._to.take(at, axis=0), self.held.reshape(-1)
+        what = around.take(self._from.take(at, axis=0))
+        held[to] = held.take(to) + what if sign > 0 else held.take(to) - what
+        self.played.reshape(-1)[at] += sign
+        self._is[p][at] = 1.0 if sign > 0 else 0.0
 
     def conditional(self, p: int) -> Floats:
         """(n, labels) what each label of piece p would score, all others as they are, up to a constant. The counts are
@@ -123,40 +137,45 @@ class Annealing:
         field = self.field
         around = self._around(p)
         self._add(p, around, -1)
-        self._is[p, self._rows, self.labels[:, p]] = 0.0
         scores = field.unary[p] + field.played * (self.played == 0)
-        if p in self._astray:
-            scores += field.halves * (field.astray[p] @ self._is.reshape(len(self._is), -1)).reshape(scores.shape)
+        if len(off := self._astray[p]):
+            scores += field.halves * (field.astray[p].take(off) @ self._is.take(off, axis=0)).reshape(scores.shape)
         scores += around[SAME] * self._same
-        scores += around[JOINED] @ self._joined + around[ALIKE] @ self._twins + around[FARTHER] @ field.farther
+        beside = around[JOINED] @ self._joined
+        if p in self._alike:
+            beside += around[ALIKE] @ self._twins
+        if p in self._ordered:
+            beside += around[FARTHER] @ field.farther
+        scores += beside
         # What holding each joint would add: nothing where one holds it.
-        near = field.held[0] * (self.near[:, :-1] <= 0)
-        exact = field.held[1] * (self.exact[:, :-1] <= 0)
-        flat = around.reshape(-1)
-        gain, more = flat.take(self._nearly), flat.take(self._exactly)
-        for held, open_joints in ((gain, near), (more, exact)):
-            np.minimum(held, 1.0, out=held)
-            ends = held.reshape(len(held), 2, field.joints)  # each joint from its one end, then from its other
-            ends *= open_joints[:, None]
-        gain += more
-        scores += gain @ self._gains
+        gain = around.take(self._holds)
+        np.minimum(gain, 1.0, out=gain)
+        ends = gain.reshape(2, len(scores), 2, field.joints)  # each joint from its one end, then from its other
+        ends *= (self._each * (self.held <= 0))[:, :, None, :-1]
+        scores += (gain[0] + gain[1]) @ self._gains
         self._last = around
         return np.asarray(scores)
 
     def put(self, p: int, labels: Ints) -> None:
         """Gives piece p its labels (n,), after `conditional`."""
         self.labels[:, p] = labels
-        self._is[p, self._rows, labels] = 1.0
         self._add(p, self._last, 1)
 
     def sweep(self, temperature: float, rng: np.random.Generator) -> None:
         """Every piece once, in a random order; without temperature: to its best label."""
-        for p in rng.permutation(self.labels.shape[1]).tolist():
-            scores = self.conditional(p)
-            if temperature > 0:
-                scores = scores + temperature * rng.gumbel(size=scores.shape)
-            self.put(p, np.argmax(scores, axis=1))
+        order = rng.permutation(self.labels.shape[1]).tolist()
+        if temperature > 0:
+            noise = temperature * rng.gumbel(size=(len(order), *self.played.shape))
+            for p, more in zip(order, noise, strict=True):
+                self.put(p, np.argmax(self.conditional(p) + more, axis=1))
+        elif self._settled is None or not np.array_equal(self._settled, self.labels):
+            before = self.labels.copy()
+            for p in order:
+                self.put(p, np.argmax(self.conditional(p), axis=1))
+            # Where nothing changed, nothing will in any order.
+            self._settled = self.labels.copy() if np.array_equal(before, self.labels) else None
 
+    @np.errstate(divide="ignore")
     def move(self, temperature: float, rng: np.random.Generator) -> Floats:
         """Tries two bodies in each other's place, and two mirror images as another body, several times (Metropolis).
         Returns what the labels score (n,)."""
@@ -165,8 +184,7 @@ class Annealing:
             for other in (self._swapped(labels, rng), self._mirrored(labels, rng)):
                 changed = scores if other is labels else scores_of(self.field, other)
                 gain = changed - scores
-                with np.errstate(divide="ignore"):
-                    chance = np.log(rng.random(len(gain))) * temperature
+                chance = np.log(rng.random(len(gain))) * temperature
                 taken = (gain > 0) | (gain > chance)
                 labels = np.where(taken[:, None], other, labels)
                 scores = np.where(taken, changed, scores)
@@ -175,18 +193,20 @@ class Annealing:
 
     def _swapped(self, labels: Ints, rng: np.random.Generator) -> Ints:
         """The labels with the body of one piece in another one's place, and the other in its."""
-        rows, none = np.arange(len(labels)), len(self.field.bodies)
-        one = labels[rows, rng.integers(labels.shape[1], size=len(labels))][:, None]
-        two = rng.integers(none, size=len(labels))[:, None]
+        rows, none = self._rows, len(self.field.bodies)
+        one = labels[rows, rng.integers(labels.shape[1], size=len(labels))]
+        two = rng.integers(none, size=len(labels))
         two = np.where(one == none, none, two)
-        return np.where(labels == one, two, np.where(labels == two, one, labels))
+        places = self._places.copy()
+        places[self._row_at + one], places[self._row_at + two] = two, one
+        return places.take(self._row_at[:, None] + labels)
 
     def _mirrored(self, labels: Ints, rng: np.random.Generator) -> Ints:
         """The labels with a piece and its mirror image as another body, or as its twins."""
         pairs = self.field.mirrored
         if not len(pairs):
             return labels
-        rows = np.arange(len(labels))
+        rows = self._rows
         pair = pairs[rng.integers(len(pairs), size=len(labels))]
         one = rng.integers(len(self.field.bodies) + 1, size=len(labels))
         other = labels.copy()

@@ -81,11 +81,28 @@ class Field:
         return np.flatnonzero(self.near)
 
     @cached_property
-    def numbers(self) -> tuple[Ints, Ints, Ints, Ints]:
-        """Where a piece's labels, and a bond's `exact`, begin; the pieces at either end of the bonds."""
+    def lined(self) -> tuple[Ints, Ints, Floats]:
+        """The pieces at either end of the pairs `off`, and what each of these counts."""
+        one, other = np.ascontiguousarray(self.off.T)
+        return one, other, self.astray[one, other]
+
+    @cached_property
+    def none(self) -> Ints:
+        """(pieces,) a number for each that is no label's and no other piece's."""
+        return -1 - np.arange(len(self.unary))
+
+    @cached_property
+    def exactly(self) -> tuple[Ints, Ints]:
+        """The bonds that may hold a joint exactly, and where their `exact` begin."""
+        bonds = np.flatnonzero(self.exact.any(axis=1))
+        return bonds, bonds * len(KINDS)
+
+    @cached_property
+    def numbers(self) -> tuple[Ints, Ints, Ints]:
+        """Where a piece's labels begin; the pieces at either end of the bonds."""
         pieces, count = self.unary.shape
         first, second = np.ascontiguousarray(self.ends.T)
-        return np.arange(pieces) * count, np.arange(len(self.ends)) * len(KINDS), first, second
+        return np.arange(pieces) * count, first, second
 
     @cached_property
     def by_pair(self) -> Floats:
@@ -227,32 +244,32 @@ def weighed(features: Features, weights: Features) -> float:
 def scores_of(field: Field, labels: Ints) -> Floats:
     """(n,) what each of several labellings (n, pieces) scores."""
     rows, (_, count) = np.arange(len(labels))[:, None], field.unary.shape
-    of_piece, of_bond, first, second = field.numbers
+    (of_piece, first, second), (exactly, of_bond) = field.numbers, field.exactly
     pairs = labels.take(first, axis=1)
     pairs *= count
     pairs += labels.take(second, axis=1)
     held = field.joint.ravel().take(pairs)
     total = field.unary.ravel().take(of_piece + labels).sum(axis=1)
     total += field.by_pair.take(pairs, axis=0).reshape(len(labels), -1) @ field.by_bond
-    exact = field.exact.ravel().take(of_bond + field.kind.take(held)) > 0
-    of_joints = held + (field.joints + 1) * rows
     # The last column is no joint, or no body.
-    near_held = _there(of_joints.take(field.nearly, axis=1), len(labels), field.joints + 1)[:, :-1]
-    exactly_held = _there(of_joints[exact], len(labels), field.joints + 1)[:, :-1]
-    played = _there(labels + count * rows, len(labels), count)[:, :-1]
-    total += field.held[0] * near_held.sum(axis=1) + field.held[1] * exactly_held.sum(axis=1)
-    total += played @ field.played[:-1]
+    from_row = (field.joints + 1) * rows
+    there = np.zeros((2, len(labels), field.joints + 1), dtype=np.bool_)
+    there[0].reshape(-1)[held.take(field.nearly, axis=1) + from_row] = True
+    own = held.take(exactly, axis=1)
+    exact = field.exact.ravel().take(of_bond + field.kind.take(own)) > 0
+    own += from_row
+    there[1].reshape(-1)[own[exact]] = True
+    near_held, exactly_held = there[:, :, :-1].sum(axis=2)
+    played = np.zeros((len(labels), count), dtype=np.bool_)
+    played.reshape(-1)[labels + count * rows] = True
+    total += field.held[0] * near_held + field.held[1] * exactly_held
+    total += played[:, :-1] @ field.played[:-1]
     if len(field.off):
-        one, other = labels[:, field.off[:, 0]], labels[:, field.off[:, 1]]
-        total += (field.halves[one] & (one == other)) @ field.astray[field.off[:, 0], field.off[:, 1]]
+        one, other, counts = field.lined
+        # What is no half is like nothing else.
+        like = np.where(field.halves.take(labels), labels, field.none).astype(np.int32)
+        total += (like.take(one, axis=1) == like.take(other, axis=1)) @ counts
     return np.asarray(total)
-
-
-def _there(numbers: Ints, rows: int, count: int) -> NDArray[np.bool_]:
-    """(rows, count) which numbers, counted on from row to row, are there."""
-    found = np.zeros(rows * count, dtype=np.bool_)
-    found[numbers.ravel()] = True
-    return found.reshape(rows, count)
 
 
 def score_of(field: Field, labels: Ints) -> float:

@@ -132,7 +132,8 @@ def fused(
     found_so_far |= {(evidence, id(b.template)): b for b in likely}
     best = max(likely, key=lambda b: b.score)
     best = tried(best.choices, best.template, evidence, chains=MANY)
-    told, way = max(((_of_contacts(answer, way), way) for way in ways), key=lambda one: one[0].score)
+    of_contacts = [(_of_contacts(answer, way), way) for way in ways]
+    told, way = max(of_contacts, key=lambda one: one[0].score)
     if told.score > best.score:
         # Annealing did not come by what the contacts found, or at a glance the machine stood otherwise.
         turned = way.stance.rotation[0] @ evidence.stance.rotation[0] < 0.0
@@ -150,7 +151,7 @@ def fused(
     best, evidence = on_limbs(best, evidence)
     tried_so = [(b.choices, b.score) for b in likely]
     as_good = open_choices(best.choices, tried_so, max(b.score for b in likely) - AS_GOOD)
-    contacts = max(_unsaid(_of_contacts(answer, way), way) for way in ways)
+    contacts = max(_unsaid(found, way) for found, way in of_contacts)
     pieces, trust = evidence.pieces, evidence.trust
     judged = _judged(best, evidence, doubtful)
     judged = {i: what for i, what in judged.items() if not _is_pin(i, what, observation, best.template)}

@@ -72,35 +72,37 @@ def votes_of(
     for piece in pieces:
         for body in {b for i in piece.members for b in solved.get(i, ())}:
             areas[body] = areas.get(body, 0.0) + piece.area
+    twins = {body: twin_role(body) or body for body in kinds}
+    depths = {body: apart.get((template.root, body), 0) for body in kinds}
     votes: Votes = []
     for piece, said, worth in zip(pieces, saids, trust, strict=True):
         mine: dict[str, Features] = {}
         told = {edited[i] for i in piece.members if i in edited}
         meant = {kinds[b] for b, score in said.items() if score > 0.0 and b in kinds}
+        shapes = {
+            (kind, named_so): _shape(piece, kind, named_so, total, largest, stance)
+            for kind in {*kinds.values()}
+            for named_so in (False, True)
+        }
+        # Contacts see two sides, but not which is the left: where a piece lies, and its names, tell that. All of a
+        # cluster is one guess of theirs, and counts once.
+        contacts: dict[str, float] = {}
+        for i in piece.members & solved.keys():
+            for body, share in solved[i].items():
+                contacts[body] = max(contacts.get(body, 0.0), share * piece.area / areas[body])
         for body, kind in kinds.items():
             name = said.get(body, 0.0)
-            shape = _shape(piece, kind, name > 0 or body in told, total, largest, stance)
+            shape = shapes[kind, name > 0 or body in told]
             if shape is None:
                 continue
             if meant and meant <= set(BARS) and kind not in BARS and not told:
                 # Its names speak of hydraulic cylinders alone, if not of which.
                 shape = {**shape, "unlike": max(worth * max(said.values()), shape.get("unlike", 0.0))}
-            # Contacts see two sides, but not which is the left: where a piece lies, and its names, tell that. All of a
-            # cluster is one guess of theirs, and counts once.
-            contact = max(
-                (
-                    solved[i][side] * piece.area / areas[side]
-                    for i in piece.members & solved.keys()
-                    for side in (body, twin_role(body))
-                    if side in solved[i]
-                ),
-                default=0.0,
-            )
+            contact = max(contacts.get(body, 0.0), contacts.get(twins[body], 0.0))
             found = {"name": worth * name, "contacts": contact, "said": float(body in told), **shape}
             usual = template.usual.get(body, anywhere)
             if usual is not None:
-                depth = apart.get((template.root, body), 0)
-                found |= _unusual(stance, piece, usual, stance.drawn * piece.area / total, depth)
+                found |= _unusual(stance, piece, usual, stance.drawn * piece.area / total, depths[body])
             if kind == piece.kind == "wheel" and body in odd:
                 found["odd"] = odd[body](piece.area)
             mine[body] = {key: value for key, value in found.items() if value}
@@ -232,7 +234,8 @@ def _cylinders_before(template: Template) -> dict[str, frozenset[str]]:
     return found
 
 
-def joints_apart(template: Template) -> dict[tuple[str, str], int]:
+@remembered
+def joints_apart(template: Template) -> Mapping[tuple[str, str], int]:
     """(body, body) → how many joints lead from one to the other; pairs that none lead between are left out."""
     graph = networkx.Graph([template.bodies_of(j) for j in template.joints])
     reached = networkx.all_pairs_shortest_path_length(graph)

@@ -16,7 +16,8 @@ from yellowiron.cad.mesh import copies, measures, shells
 from yellowiron.cad.mesh.assembly import pieces, shape_of
 from yellowiron.model.assembly import Assembly, Part
 from yellowiron.model.finding import Finding
-from yellowiron.model.geometry import CylinderFeature, Floats, Mesh, Shape
+from yellowiron.model.geometry import Color, CylinderFeature, Finish, Floats, Mesh, Shape
+from yellowiron.support.caching.remembered import remembered
 
 ROUND = 1.2 * np.pi
 """Radians around: a bar goes further."""
@@ -127,7 +128,7 @@ def _rams(shape: Shape, eyes: Callable[[], Eyes]) -> list[Mesh]:
     bars = [c for c in shape.cylinders if not c.inner and c.arc > ROUND and c.length > SHORT * c.radius]
     if shape.exact or not 1 < len(bars) <= MOST_BARS:
         return []
-    solids = pieces(shape.mesh)
+    solids = _solids_in(shape.mesh)
     own = _bars_of(solids, bars)
     halves = {n: cut for n, mine in own.items() if len(cut := _cut(solids[n], tuple(mine), eyes, exact=False)) == 2}
     sole = {n: bar for n, mine in own.items() if n not in halves and (bar := _sole(solids[n], mine)) is not None}
@@ -193,7 +194,7 @@ def _divided(assembly: Assembly, found: Mapping[str, list[Mesh]], words: str) ->
     for (key, mesh), (original, moved) in zip(order, same, strict=True):
         if original not in own:
             whole = assembly.shapes[key]
-            own[original] = shape_of(mesh, whole.name, whole.color, whole.finishes)
+            own[original] = _shape_of(mesh, whole.name, whole.color, whole.finishes)
         places.setdefault(key, []).append((own[original].key, np.eye(4) if moved is None else moved))
     shapes = {key: shape for key, shape in assembly.shapes.items() if key not in found}
     shapes |= {shape.key: shape for shape in own.values()}
@@ -214,6 +215,18 @@ def _divided(assembly: Assembly, found: Mapping[str, list[Mesh]], words: str) ->
         "Export every part as an object of its own.",
     )
     return replace(assembly, parts=tuple(parts), shapes=shapes, findings=(*assembly.findings, finding))
+
+
+@remembered
+def _solids_in(mesh: Mesh) -> tuple[Mesh, ...]:
+    """`pieces` of a mesh, the same objects each time: what is taken apart in one way is taken apart in another."""
+    return tuple(pieces(mesh))
+
+
+@remembered
+def _shape_of(mesh: Mesh, name: str, color: Color | None, finishes: tuple[Finish, ...]) -> Shape:
+    """`shape_of`, made once of the same object."""
+    return shape_of(mesh, name, color, finishes)
 
 
 def _twins(shape: Shape) -> tuple[tuple[CylinderFeature, ...], list[Mesh]] | None:
@@ -242,11 +255,11 @@ def _mirrored(corners: Floats, number: NDArray[np.int64], middle: Floats, across
     """Which triangles (n,) are beyond a plane through `middle`, square to `across`, if those before it are as large and
     no solid (`number`, by triangle) is on both sides; None otherwise. `corners` (n, 3, 3)."""
     normal = across / np.linalg.norm(across)
-    side = (corners - middle) @ normal
+    a, b, c = ((corners - middle) @ normal).T
     low, high = (np.full(int(number.max()) + 1, sign * np.inf) for sign in (1.0, -1.0))
-    np.minimum.at(low, number, side.min(axis=1))
-    np.maximum.at(high, number, side.max(axis=1))
-    beyond: NDArray[np.bool_] = side.mean(axis=1) > 0.0
+    np.minimum.at(low, number, np.minimum(np.minimum(a, b), c))
+    np.maximum.at(high, number, np.maximum(np.maximum(a, b), c))
+    beyond: NDArray[np.bool_] = a + b + c > 0.0
     if ((low < 0.0) & (high > 0.0)).any() or beyond.all() or not beyond.any():
         return None
     near, far = corners[~beyond].reshape(-1, 3), corners[beyond].reshape(-1, 3)
@@ -314,7 +327,7 @@ def _moved(eyes: Eyes, transform: Floats) -> Callable[[], Eyes]:
 
 def _solids(shape: Shape, eyes: Callable[[], Eyes]) -> list[Mesh]:
     """The meshes of a shape's solids, barrels and rods apart; where surfaces say what is one part, only these."""
-    found = [shape.mesh] if shape.exact else pieces(shape.mesh)
+    found = [shape.mesh] if shape.exact else _solids_in(shape.mesh)
     ends = _ends(shape.cylinders)
     cut = []
     for mesh in found:

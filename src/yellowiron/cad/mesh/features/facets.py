@@ -31,6 +31,7 @@ FLAT = math.radians(0.3)
 """Triangles side by side are one plane within this angle, radians …"""
 _OFF = 2e-4
 """… and no corner further from it than this share of the mesh."""
+_ONE_WAY = math.cos(FLAT)
 _LITTLE = 3e-4
 """A plane below this share of the mesh's area is not worth its place."""
 _TINY = 1e-3
@@ -301,30 +302,34 @@ def _planes(soup: Soup, free: Flags) -> tuple[PlaneFeature, ...]:
     order = np.argsort(label, kind="stable")
     ends = np.searchsorted(label[order], np.arange(len(area) + 1))
     chosen = sorted(np.flatnonzero(area > _LITTLE * total).tolist(), key=lambda k: (-area[k], k))
+    areas, facing, middles = soup.areas[order], soup.normals[order], soup.middles[order]
+    corners = soup.points[soup.corners[order]]
+    flat, level = max(_OFF * soup.size, least(soup)), max(0.5 * _OFF * soup.size, least(soup))
     points, normals, sizes = np.zeros((len(chosen), 3)), np.zeros((len(chosen), 3)), np.zeros(len(chosen))
     count = 0
     for k in chosen:
-        rows = order[ends[k] : ends[k + 1]]
-        weight = soup.areas[rows] / area[k]
-        normal = weight @ soup.normals[rows]
-        normal /= max(float(np.linalg.norm(normal)), 1e-12)
-        point = weight @ soup.middles[rows]
-        corners = soup.points[soup.corners[rows]].reshape(-1, 3) - point
-        if float(np.abs(corners @ normal).max()) > max(_OFF * soup.size, least(soup)):
+        rows = slice(ends[k], ends[k + 1])
+        weight = areas[rows] / area[k]
+        normal = weight @ facing[rows]
+        normal /= max(math.sqrt(normal.dot(normal)), 1e-12)
+        point = weight @ middles[rows]
+        if float(np.abs((corners[rows].reshape(-1, 3) - point) @ normal).max()) > flat:
             continue
-        level = np.abs(np.einsum("ij,ij->i", point - points[:count], normals[:count]))
-        same = (level < max(0.5 * _OFF * soup.size, least(soup))) & (normals[:count] @ normal > math.cos(FLAT))
-        if same.any():
-            i = int(np.argmax(same))
+        alike = normals[:count] @ normal > _ONE_WAY
+        if alike.any():
+            alike &= np.abs(np.einsum("ij,ij->i", point - points[:count], normals[:count])) < level
+        if alike.any():
+            i = int(np.argmax(alike))
             both = sizes[i] + area[k]
             points[i] = (sizes[i] * points[i] + area[k] * point) / both
             sizes[i] = both
         else:
             points[count], normals[count], sizes[count] = point, normal, area[k]
             count += 1
-    return tuple(PlaneFeature(_triple(points[i]), _triple(normals[i]), float(sizes[i])) for i in range(count))
+    found = zip(points[:count], normals[:count], sizes[:count].tolist(), strict=True)
+    return tuple(PlaneFeature(_triple(point), _triple(normal), size) for point, normal, size in found)
 
 
 def _triple(values: Floats) -> tuple[float, float, float]:
-    x, y, z = (0.0 if abs(v) < 1e-14 else float(v) for v in values)
-    return (x, y, z)
+    x, y, z = values.tolist()
+    return (0.0 if abs(x) < 1e-14 else x, 0.0 if abs(y) < 1e-14 else y, 0.0 if abs(z) < 1e-14 else z)

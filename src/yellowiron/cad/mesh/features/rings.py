@@ -106,15 +106,25 @@ def _walls(soup: Soup, free: Flags, direction: Floats) -> Iterator[Indices]:
     """The pieces of connected free triangles along a direction that face all ways across it, in the order of their
     first triangles."""
     wall = free & (np.abs(soup.normals @ direction) < _LEAN)
-    tied = (soup.angle < _GAP) & wall[soup.pair].all(axis=1)
+    tied = (soup.angle < _GAP) & wall[soup.pair[:, 0]] & wall[soup.pair[:, 1]]
+    if int(tied.sum()) < _CORNERS - 1:
+        return
     label = linked(soup.pair[tied], len(soup.corners))
     count = np.bincount(label)
+    if int(count.max()) < _CORNERS:
+        return
     size = np.bincount(label, weights=soup.areas)
     net: Floats = np.stack([np.bincount(label, weights=soup.areas * soup.normals[:, k]) for k in range(3)], axis=1)
     net = net - np.outer(net @ direction, direction)
+    chosen = np.flatnonzero((count >= _CORNERS) & (np.linalg.norm(net, axis=1) < _ALL_ROUND * size))
+    if not len(chosen):
+        return
     members = _members(label)
-    for k in np.flatnonzero((count >= _CORNERS) & (np.linalg.norm(net, axis=1) < _ALL_ROUND * size)).tolist():
-        yield members(k)
+    walls = [members(k) for k in chosen.tolist()]
+    corners = soup.points[soup.corners[np.concatenate(walls)]] @ np.stack(across(direction)).T
+    for rows, no_wall in zip(walls, _are_no_walls(corners, np.cumsum([0, *map(len, walls)])[:-1]), strict=True):
+        if not no_wall:
+            yield rows
 
 
 def _members(label: Indices) -> Callable[[int], Indices]:
@@ -126,8 +136,10 @@ def _members(label: Indices) -> Callable[[int], Indices]:
 
 def _ring(soup: Soup, rows: Indices, direction: Floats) -> Ring | None:
     """The cylinder about a direction that a wall's corners are nearest to, if they are near to it."""
-    basis = np.stack(across(direction))
     points = soup.corners_of(rows)
+    if len(points) < _CORNERS:
+        return None
+    basis = np.stack(across(direction))
     flat = points @ basis.T
     circle = _circle(flat)
     if circle is None:
@@ -139,17 +151,20 @@ def _ring(soup: Soup, rows: Indices, direction: Floats) -> Ring | None:
     found = Round(foot, direction, radius, facing < 0.0, rows)
     if abs(facing) < 0.9 * float(soup.areas[rows].sum()):
         return None
-    angles, along = np.arctan2(flat[:, 1] - center[1], flat[:, 0] - center[0]), points @ direction
+    angles = np.arctan2(flat[:, 1] - center[1], flat[:, 0] - center[0])
     corners, gap = _directions(angles)
-    upper = along > along.mean()
-    # What is angular has the same corners at both ends; a round wall that lost most of its corners has others.
-    twisted = corners > _TWISTED * max(_directions(angles[upper])[0], _directions(angles[~upper])[0])
-    if corners < _CORNERS or gap > (_GAP if corners >= _MANY or twisted else _FOLD):
+    if corners < _CORNERS or gap > _GAP:
         return None
+    if gap > _FOLD and corners < _MANY:
+        # What is angular has the same corners at both ends; a round wall that lost most of its corners has others.
+        along = points @ direction
+        upper = along > along.mean()
+        if corners <= _TWISTED * max(_directions(angles[upper])[0], _directions(angles[~upper])[0]):
+            return None
     stray = float(np.abs(np.linalg.norm(flat - center, axis=1) - radius).max())
-    if stray > _STRAY * _height(soup, found, 100.0) + ROUGH * radius:
+    if stray > _STRAY * _height(found, float(widths(soup, found, rows).max())) + ROUGH * radius:
         return None
-    return Ring(found, max(stray, _TOLD * _height(soup, found)))
+    return Ring(found, max(stray, _TOLD * _height(found, _wide(soup, found))))
 
 
 def _directions(angles: Floats) -> tuple[int, float]:
@@ -162,20 +177,25 @@ def _directions(angles: Floats) -> tuple[int, float]:
 def untold(soup: Soup, found: Round) -> float:
     """How far (metres) the radius of a round may be off on which the corners of its facets lie: by what facets as wide
     as its own cannot tell. 0 for narrow ones."""
-    return max(0.0, _TOLD * _height(soup, found) - ROUGH * found.radius)
+    return max(0.0, _TOLD * _height(found, _wide(soup, found)) - ROUGH * found.radius)
 
 
-def _height(soup: Soup, found: Round, percentile: float = _WIDE) -> float:
-    """The height of the arcs over the chords of a round's wider facets, metres."""
-    wide = min(float(np.percentile(widths(soup, found, found.triangles), percentile)), _FOLD)
-    return found.radius * (1.0 - math.cos(0.5 * wide))
+def _wide(soup: Soup, found: Round) -> float:
+    """The angle about its axis that a round's wider facets cover, radians."""
+    return float(np.percentile(widths(soup, found, found.triangles), _WIDE))
+
+
+def _height(found: Round, wide: float) -> float:
+    """The height of the arc over the chord of a facet that covers so many radians of a round, metres."""
+    return found.radius * (1.0 - math.cos(0.5 * min(wide, _FOLD)))
 
 
 def _circle(points: Floats) -> tuple[Floats, float] | None:
     """Centre and radius of the circle that points (n, 2) are nearest to: the algebraic fit, then Gauss-Newton."""
     middle = points.mean(axis=0)
     moved = points - middle
-    matrix = np.column_stack([2.0 * moved, np.ones(len(moved))])
+    matrix = np.empty((len(moved), 3))
+    matrix[:, :2], matrix[:, 2] = 2.0 * moved, 1.0
     solved, _, rank, _ = np.linalg.lstsq(matrix, (moved**2).sum(axis=1), rcond=1e-9)
     if rank < 3:
         return None
@@ -183,7 +203,38 @@ def _circle(points: Floats) -> tuple[Floats, float] | None:
     for _ in range(4):
         offset = moved - center
         distance = np.maximum(np.linalg.norm(offset, axis=1), 1e-12)
-        step = np.linalg.lstsq(np.column_stack([offset / distance[:, None], np.ones(len(moved))]), distance - radius,
-                               rcond=1e-9)[0]  # fmt: skip
+        matrix[:, :2] = offset / distance[:, None]
+        step = np.linalg.lstsq(matrix, distance - radius, rcond=1e-9)[0]
         center, radius = center + step[:2], radius + float(step[2])
     return (middle + center, radius) if radius > 0.0 else None
+
+
+def _are_no_walls(corners: Floats, starts: Indices) -> Flags:
+    """(walls,) which pieces are too far from every circle to be walls, so that none need be fitted to them. `corners`
+    (m, 3, 2): those of their triangles, seen along the direction, piece after piece from `starts` on.
+
+    If corners stray by s from some circle of radius r, |d² - r²| <= s (2 r + s) for the distance d of each of them from
+    its centre: this is no less than the root mean square of d² - r², and that no less than where it is least, which is
+    a linear fit. As a wall's, s is no more than `_STRAY` of the height h of the arc over the widest facet, and a
+    little. h is at most r (1 - cos(_FOLD / 2)); and as that facet's corners are no nearer to the centre than r - s, its
+    longest side c is at least 2 (r - s) sin(w / 2) where it covers w, so that h = 2 r sin²(w / 4) is at most
+    r (c / (r - s))² / 7.3. And r is bounded by the corners' extent along any direction, as the gaps between them are no
+    wider than `_GAP`."""
+    count = 3.0 * np.diff(np.append(starts, len(corners)))
+    sides = corners - corners[:, (1, 2, 0)]
+    chord = np.maximum.reduceat((sides * sides).sum(axis=2).max(axis=1), starts)
+    low, high = np.minimum.reduceat(corners.min(axis=1), starts), np.maximum.reduceat(corners.max(axis=1), starts)
+    most = _STRAY * (1.0 - math.cos(0.5 * _FOLD)) + ROUGH
+    radius = (high - low).min(axis=1) / (2.0 * (1.0 - most) * math.cos(0.5 * _GAP))
+    by_chord = _STRAY * chord / (7.3 * (1.0 - most) ** 2) + ROUGH * radius**2
+    # The fit of d² - r² about the middle of the corners, where their sums are 0.
+    middle = np.add.reduceat(corners.sum(axis=1), starts) / count[:, None]
+    x, y = (corners - np.repeat(middle, np.diff(np.append(starts, len(corners))), axis=0)[:, None]).transpose(2, 0, 1)
+    square = x * x + y * y
+    sums = [x * x, x * y, y * y, square, square * square, x * square, y * square]
+    xx, xy, yy, one, two, by_x, by_y = (np.add.reduceat(values.sum(axis=1), starts) for values in sums)
+    with np.errstate(divide="ignore", invalid="ignore"):
+        told = (by_x * by_x * yy - 2.0 * by_x * by_y * xy + by_y * by_y * xx) / (xx * yy - xy * xy)
+        least = (two - one * one / count - told - 1e-6 * two) / count
+    sure = xx * yy - xy * xy > 1e-6 * (xx + yy) ** 2
+    return np.asarray(sure & ((1.001 * (2.0 + most) * np.minimum(most * radius**2, by_chord)) ** 2 < least))

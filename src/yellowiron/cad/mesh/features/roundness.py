@@ -90,31 +90,29 @@ def fit(start: Round, points: Floats) -> Round | None:
     """The cylinder that points (n, 3) are nearest to, in the least-squares sense of their distances from its surface,
     by Gauss-Newton from `start`; None where that does not settle."""
     middle = points.mean(axis=0)
-    current = replace(start, point=start.point + float((middle - start.point) @ start.direction) * start.direction)
+    point, direction, radius = start.point, start.direction, start.radius
+    point = point + float((middle - point) @ direction) * direction
     reach = max(float(np.linalg.norm(points - middle, axis=1).max()), 1e-12)
     ones, ridge = np.ones(len(points)), 1e-12 * len(points) * np.eye(5)
     for _ in range(_ROUNDS):
-        u, v = current.frame
-        offset = points - current.point
-        a, b, z = offset @ u, offset @ v, offset @ current.direction
+        u, v = across(direction)
+        offset = points - point
+        a, b, z = offset @ u, offset @ v, offset @ direction
         radial = np.maximum(np.hypot(a, b), 1e-12)
         cosine, sine = a / radial, b / radial
         matrix = np.array([cosine, sine, cosine * z / reach, sine * z / reach, ones])
-        step = np.linalg.solve(matrix @ matrix.T + ridge, matrix @ (radial - current.radius))
-        if not np.isfinite(step).all() or abs(step[4]) > 0.9 * current.radius:
+        step = np.linalg.solve(matrix @ matrix.T + ridge, matrix @ (radial - radius))
+        if not np.isfinite(step).all() or abs(step[4]) > 0.9 * radius:
             return None
-        direction = current.direction + (step[2] * u + step[3] * v) / reach
-        current = replace(
-            current,
-            point=current.point + step[0] * u + step[1] * v,
-            direction=direction / np.linalg.norm(direction),
-            radius=float(current.radius + step[4]),
-        )
-        if current.radius <= 0.0:
+        point = point + step[0] * u + step[1] * v
+        direction = direction + (step[2] * u + step[3] * v) / reach
+        direction = direction / math.sqrt(direction.dot(direction))
+        radius = float(radius + step[4])
+        if radius <= 0.0:
             return None
         if float(np.abs(step).max()) < 1e-9 * reach:
             break
-    return current
+    return replace(start, point=point, direction=direction, radius=radius)
 
 
 def lying_on(soup: Soup, cylinder: Round, among: Indices, slack: float) -> Indices:

@@ -22,6 +22,8 @@ _LEVEL = math.radians(0.05)
 """Triangles side by side are one strip within this angle, radians."""
 _CROWD = 40
 """A flat facet with more folds than this around it is no strip."""
+_FEW = 30
+"""Of corners so many times fewer than a mesh has points those that are there are sorted, not looked for among all."""
 
 
 @dataclass(frozen=True, eq=False)
@@ -68,8 +70,11 @@ class Soup:
 
     def corners_of(self, triangles: Indices) -> Floats:
         """The points (n, 3) that some triangles have for corners, each once, in their order."""
+        corners = self.corners[triangles]
+        if len(self.points) > _FEW * corners.size:
+            return self.points[np.unique(corners)]
         used = np.zeros(len(self.points), dtype=bool)
-        used[self.corners[triangles]] = True
+        used[corners] = True
         return self.points[used]
 
     @functools.cached_property

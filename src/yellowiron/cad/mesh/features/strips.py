@@ -24,6 +24,8 @@ _ALIKE = 0.15
 _ALIGNED = math.cos(math.radians(3.0))
 """… and their directions by less than this."""
 _TRIES = 48
+_AT_ONCE = 4000
+"""So many triangles are held against circles in one step, but for a patch of more."""
 _ONE_WAY = math.cos(0.05)
 """Normals that are all this near to one of them are not spread out at all."""
 _NONE = np.zeros(0, dtype=np.int64)
@@ -118,21 +120,26 @@ def _guesses(soup: Soup, patch: Indices) -> Iterator[tuple[Round, Indices]]:
     points, normals = soup.points[soup.corners[rows]] @ basis.T, soup.normals[rows] @ basis.T
     normals /= np.linalg.norm(normals, axis=1)[:, None]
     middles = points.mean(axis=1)
-    best: tuple[float, Floats, float] | None = None
+    areas = soup.areas[rows]
+    tried: list[tuple[Floats, float]] = []
     for i, j in _picks(len(rows)).tolist():
         turn = normals[i] - normals[j]
         square = float(turn @ turn)
         if square < 0.02:
             continue
         radius = float((middles[i] - middles[j]) @ turn) / square
-        center = 0.5 * (middles[i] - radius * normals[i] + middles[j] - radius * normals[j])
-        size = abs(radius)
-        if not soup.resolution < size < soup.size:
-            continue
-        off = np.abs(np.linalg.norm(points - center, axis=2) - size).max(axis=1)
-        score = float(soup.areas[rows][off < 0.06 * size].sum())
-        if best is None or score > best[0] * (1.0 + 1e-9):
-            best = (score, center, radius)
+        if soup.resolution < abs(radius) < soup.size:
+            tried.append((0.5 * (middles[i] - radius * normals[i] + middles[j] - radius * normals[j]), radius))
+    best: tuple[float, Floats, float] | None = None
+    at_once = max(1, _AT_ONCE // len(rows))
+    for start in range(0, len(tried), at_once):
+        some = tried[start : start + at_once]
+        off = _off(points, np.array([center for center, _ in some]), np.abs([radius for _, radius in some]))
+        near = off < 0.06 * np.abs([radius for _, radius in some])[:, None]
+        for (center, radius), on in zip(some, near, strict=True):
+            score = float(areas[on].sum())
+            if best is None or score > best[0] * (1.0 + 1e-9):
+                best = (score, center, radius)
     if best is None or best[0] <= 0.0:
         return
     _, center, radius = best
@@ -141,6 +148,14 @@ def _guesses(soup: Soup, patch: Indices) -> Iterator[tuple[Round, Indices]]:
     if len(seeds) >= FEWEST:
         foot = center @ basis + float(soup.middles[seeds].mean(axis=0) @ direction) * direction
         yield Round(foot, direction, abs(radius), radius < 0.0, _NONE), seeds
+
+
+def _off(points: Floats, centers: Floats, radii: Floats) -> Floats:
+    """(k, n) by how much the corners of n triangles (n, 3, 2) are off k circles at most."""
+    offset = points - centers[:, None, None]
+    offset *= offset
+    off = np.abs(np.sqrt(offset[..., 0] + offset[..., 1]) - radii[:, None, None])
+    return np.asarray(np.maximum(np.maximum(off[..., 0], off[..., 1]), off[..., 2]))
 
 
 def _great_circle(soup: Soup, patch: Indices) -> Floats | None:
