@@ -28,7 +28,7 @@ CHAINS = 12
 WARM, WARM_UP = 14, 16.0
 """So many sweeps, from this temperature, tell how good a variant is beside another, from whose labels they begin."""
 SEED = 1
-SAME, JOINED, ALIKE, FARTHER, NEAR, EXACT = range(6)
+SAME, JOINED, ALIKE, UNPAIRED, FARTHER, NEAR, EXACT = range(7)
 """What a piece's bonds count: as in `Field.weights`, for its body being the farther one, nearly held, and exactly held
 as the first of `KINDS` (the others follow)."""
 
@@ -62,6 +62,7 @@ class Annealing:
         self._same[-1] = 0.0
         self._joined = (field.joint < field.joints).astype(np.float64)
         self._twins = field.twins.astype(np.float64)
+        self._unpaired = field.unpaired.astype(np.float64)
         self._astray = frozenset(np.flatnonzero(field.astray.any(axis=1)).tolist())
         # Of two labels there is one joint at most: its ends, and which labels it is at.
         first, second = np.nonzero(np.triu(field.joint < field.joints))
@@ -128,7 +129,8 @@ class Annealing:
         if p in self._astray:
             scores += field.halves * (field.astray[p] @ self._is.reshape(len(self._is), -1)).reshape(scores.shape)
         scores += around[SAME] * self._same
-        scores += around[JOINED] @ self._joined + around[ALIKE] @ self._twins + around[FARTHER] @ field.farther
+        scores += around[JOINED] @ self._joined + around[ALIKE] @ self._twins
+        scores += around[UNPAIRED] @ self._unpaired + around[FARTHER] @ field.farther
         # What holding each joint would add: nothing where one holds it.
         near = field.held[0] * (self.near[:, :-1] <= 0)
         exact = field.held[1] * (self.exact[:, :-1] <= 0)

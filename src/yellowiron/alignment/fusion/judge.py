@@ -39,7 +39,7 @@ NEVER = -1e6
 class Field:
     """The score as arrays. Labels are the `bodies`, and last: none. `unary` (pieces, labels). Bond k joins the pieces
     `ends[k]`; its `weights[k]` are what it counts for one body, for bodies that a joint joins, and for one body or left
-    and right twins, which `twins` (labels, labels) are; it holds a joint
+    and right twins, which `twins` (labels, labels) are, and for `unpaired` bodies; it holds a joint
     nearly (`near[k]`), or exactly as each kind of joint (`exact[k]`: `KINDS`). `joint` (labels, labels): the joint
     between two labels, or the number of joints. `kind` (joints + 1,): which of `KINDS` a joint is. `played` (labels,):
     what each body counts that is there; `held` what a joint counts that is held nearly, and exactly. `astray` (pieces,
@@ -88,18 +88,25 @@ class Field:
         return np.arange(pieces) * count, np.arange(len(self.ends)) * len(KINDS), first, second
 
     @cached_property
+    def unpaired(self) -> NDArray[np.bool_]:
+        """(labels, labels) whether they are halves of hydraulic cylinders, and neither the same nor twins."""
+        return (self.halves[:, None] & self.halves) & ~self.twins
+
+    @cached_property
     def by_pair(self) -> Floats:
-        """(labels * labels, 4) what two labels are to each other, as numbers: one body, joined, one body or twins, and
-        `farther`: what a bond's `weights` and `order` count."""
+        """(labels * labels, 5) what two labels are to each other, as numbers: one body, joined, one body or twins,
+        `unpaired`, and `farther`: what a bond's `weights` and `order` count."""
         same = np.eye(len(self.joint), dtype=np.bool_)
         same[-1, -1] = False
         return (
-            np.stack([same, self.joint < self.joints, self.twins, self.farther], axis=-1).reshape(-1, 4).astype(float)
+            np.stack([same, self.joint < self.joints, self.twins, self.unpaired, self.farther], axis=-1)
+            .reshape(-1, 5)
+            .astype(float)
         )
 
     @cached_property
     def by_bond(self) -> Floats:
-        """(bonds * 4,) what each bond counts of it."""
+        """(bonds * 5,) what each bond counts of it."""
         return np.column_stack([self.weights, self.order]).ravel()
 
 
@@ -152,11 +159,12 @@ def field_of(
                     weighed(b.same, weights),
                     weights["joined"] * b.beside + weights["branched"] * abs(b.branch),
                     weights["alike"] * b.alike,
+                    weights["unpaired"] * b.paired,
                 )
                 for b in bonds
             ],
             dtype=np.float64,
-        ).reshape(-1, 3),
+        ).reshape(-1, 4),
         np.array([b.beside for b in bonds], dtype=np.int64),
         np.array([(b.slide, b.hinge, b.level, b.turned) for b in bonds], dtype=np.int64).reshape(-1, len(KINDS)),
         joint,
