@@ -118,16 +118,16 @@ def test_mirror_images_are_one_body_or_twins() -> None:
 def test_a_cylinders_mirror_image_is_its_twin() -> None:
     """Two bars side by side were the barrels of the boom's cylinder and of the arm's."""
     twin = choose(load_template("excavator"), {"boom_cylinders": "twin"})
-    names = ["boom_cylinder_barrel_l", "boom_cylinder_barrel_r", "arm_cylinder_barrel", "boom"]
+    names = ["boom_cylinder_barrel_l", "boom_cylinder_barrel_r", "boom_piston_rod_l", "arm_cylinder_barrel", "boom"]
     told, untold = (
         field_of([{name: {} for name in names}] * 2, [_bond(0, 1, paired=paired)], twin, weights())
         for paired in (True, False)
     )
-    left, right, other, boom = (told.bodies.index(name) for name in names)
+    left, right, rod, other, boom = (told.bodies.index(name) for name in names)
     none = len(told.bodies)
     for pair, lost in {
         (left, right): 0.0, (left, left): 0.0, (boom, boom): 0.0, (boom, none): 0.0, (none, none): 0.0,
-        (left, boom): 0.0, (none, left): 0.0, (left, other): 1.0, (other, right): 1.0,
+        (left, boom): 0.0, (none, left): 0.0, (rod, right): 0.0, (left, other): 1.0, (other, rod): 1.0,
     }.items():  # fmt: skip
         labels = np.array(pair)
         assert score_of(told, labels) - score_of(untold, labels) == pytest.approx(lost * weights()["unpaired"])
