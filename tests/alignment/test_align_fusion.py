@@ -42,8 +42,9 @@ def excavator() -> Template:
 
 
 def _bond(a: int, b: int, **more: bool) -> Bond:
-    given = {"hinge": False, "slide": False, "alike": False, **more}
-    return Bond(a, b, {"beside": 1.0}, True, given["hinge"], given["slide"], alike=given["alike"])
+    given = {"hinge": False, "slide": False, "alike": False, "paired": False, **more}
+    told = {kind: given[kind] for kind in ("alike", "paired")}
+    return Bond(a, b, {"beside": 1.0}, True, given["hinge"], given["slide"], **told)
 
 
 def test_the_names_decide_where_nothing_else_speaks(excavator: Template) -> None:
@@ -114,6 +115,24 @@ def test_mirror_images_are_one_body_or_twins() -> None:
     assert gain(left, rod) == gain(len(field.bodies), len(field.bodies)) == 0.0
 
 
+def test_a_cylinders_mirror_image_is_its_twin() -> None:
+    """Two bars side by side were the barrels of the boom's cylinder and of the arm's."""
+    twin = choose(load_template("excavator"), {"boom_cylinders": "twin"})
+    names = ["boom_cylinder_barrel_l", "boom_cylinder_barrel_r", "boom_piston_rod_l", "arm_cylinder_barrel", "boom"]
+    told, untold = (
+        field_of([{name: {} for name in names}] * 2, [_bond(0, 1, paired=paired)], twin, weights())
+        for paired in (True, False)
+    )
+    left, right, rod, other, boom = (told.bodies.index(name) for name in names)
+    none = len(told.bodies)
+    for pair, lost in {
+        (left, right): 0.0, (left, left): 0.0, (boom, boom): 0.0, (boom, none): 0.0, (none, none): 0.0,
+        (left, boom): 0.0, (none, left): 0.0, (rod, right): 0.0, (left, other): 1.0, (other, rod): 1.0,
+    }.items():  # fmt: skip
+        labels = np.array(pair)
+        assert score_of(told, labels) - score_of(untold, labels) == pytest.approx(lost * weights()["unpaired"])
+
+
 @settings(max_examples=25, deadline=None)
 @given(st.integers(0, 10_000))
 def test_conditionals_are_differences_of_the_score(excavator: Template, seed: int) -> None:
@@ -122,7 +141,7 @@ def test_conditionals_are_differences_of_the_score(excavator: Template, seed: in
     bodies = [r.name for r in template.roles if r.rigid][:12]
     votes = [{b: {"name": float(rng.random())} for b in bodies} for _ in range(6)]
     pairs = [(a, b) for a in range(6) for b in range(a + 1, 6) if rng.random() < 0.6]
-    kinds = {"hinge": 0.5, "slide": 0.3, "alike": 0.4}
+    kinds = {"hinge": 0.5, "slide": 0.3, "alike": 0.4, "paired": 0.4}
     bonds = [
         replace(
             _bond(a, b, **{kind: bool(rng.random() < share) for kind, share in kinds.items()}),
@@ -130,7 +149,8 @@ def test_conditionals_are_differences_of_the_score(excavator: Template, seed: in
         )
         for a, b in pairs
     ]
-    field = field_of(votes, bonds, template, weights())
+    lined = np.triu(rng.random((6, 6)) < 0.3, 1)
+    field = field_of(votes, bonds, template, weights(), lined | lined.T)
     labels = rng.choice(len(field.bodies), size=6)
     labels = np.array([n if field.bodies[n] in bodies else len(field.bodies) for n in labels], dtype=np.int64)
     others = rng.permuted(labels)

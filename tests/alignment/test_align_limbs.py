@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import math
+from dataclasses import replace
 from pathlib import Path
 
 import numpy as np
@@ -10,6 +11,7 @@ import pytest
 
 from yellowiron.alignment.axes.directions import Direction, as_found
 from yellowiron.alignment.fusion.best import Best
+from yellowiron.alignment.fusion.bonds import _paired
 from yellowiron.alignment.fusion.evidence import Evidence
 from yellowiron.alignment.fusion.judge import field_of, weights
 from yellowiron.alignment.fusion.limbs import along_limbs, limb_of, limbs_in, on_limbs
@@ -133,3 +135,19 @@ def test_estimated_hinges_are_parallel_to_those_that_were_found() -> None:
     apart = np.array([0.0, math.sin(lean), math.cos(lean)])
     assert as_found(way, [up, apart]) is way, "they do not agree"
     assert as_found(way, [np.array([0.0, 1.0, 0.0])]) is way, "a hinge of another plane says nothing of this one"
+
+
+@pytest.mark.parametrize(("ahead", "told"), [(True, {(1, 2)}), (False, set[tuple[int, int]]())])
+def test_cylinders_of_a_boom_beside_the_cab_are_twins(ahead: bool, told: set[tuple[int, int]]) -> None:
+    """Pairs are left and right of the middle of what works in front, too: 2 % of a machine's size to one side of its
+    own, two of a boom's cylinders were the boom's and the arm's."""
+    aside = np.array([0.0, 0.3, 0.0])
+
+    def moved(piece: Piece, offset: Floats) -> Piece:
+        ends = {"low": piece.low + offset, "high": piece.high + offset, "center": piece.center + offset}
+        return replace(piece, samples=piece.samples + offset, **ends)
+
+    boom, cylinder = (bar((-1.5, 0.0), (1.5, 0.0), width, n, 30.0) for n, width in ((0, 0.5), (1, 0.1)))
+    pieces = [moved(boom, aside), *(moved(cylinder, aside + np.array([0.0, side, 0.0])) for side in (0.3, -0.3))]
+    stance = replace(STANCE, origin=np.array([0.0 if ahead else 5.0, 0.0, 0.0]))
+    assert _paired(pieces, stance) == told

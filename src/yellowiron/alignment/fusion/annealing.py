@@ -28,7 +28,7 @@ CHAINS = 12
 WARM, WARM_UP = 14, 16.0
 """So many sweeps, from this temperature, tell how good a variant is beside another, from whose labels they begin."""
 SEED = 1
-SAME, JOINED, ALIKE, FARTHER, NEAR, EXACT = range(6)
+SAME, JOINED, ALIKE, UNPAIRED, FARTHER, NEAR, EXACT = range(7)
 """What a piece's bonds count: as in `Field.weights`, for its body being the farther one, nearly held, and exactly held
 as the first of `KINDS` (the others follow)."""
 
@@ -64,6 +64,7 @@ class Annealing:
         self._same[-1] = 0.0
         self._joined = (field.joint < field.joints).astype(np.float64)
         self._twins = field.twins.astype(np.float64)
+        self._unpaired = field.unpaired.astype(np.float64)
         self._astray = [np.flatnonzero(row) for row in field.astray]
         # Of two labels there is one joint at most: its ends, and which labels it is at.
         first, second = np.nonzero(np.triu(field.joint < field.joints))
@@ -78,8 +79,9 @@ class Annealing:
         self._from, self._to = self._at_joints()
         self._each = np.array(field.held)[:, None, None]
         # What a piece has no bonds for counts nothing.
-        self._alike, self._ordered = (
-            frozenset(p for p, columns in enumerate(self._columns) if columns[what].any()) for what in (ALIKE, FARTHER)
+        self._alike, self._paired, self._ordered = (
+            frozenset(p for p, columns in enumerate(self._columns) if columns[what].any())
+            for what in (ALIKE, UNPAIRED, FARTHER)
         )
         self._settled: Ints | None = None
         self.take(labels)
@@ -144,6 +146,8 @@ class Annealing:
         beside = around[JOINED] @ self._joined
         if p in self._alike:
             beside += around[ALIKE] @ self._twins
+        if p in self._paired:
+            beside += around[UNPAIRED] @ self._unpaired
         if p in self._ordered:
             beside += around[FARTHER] @ field.farther
         scores += beside

@@ -23,6 +23,11 @@ FEW = 0.15
 """A name of more than this share of the pieces says nothing of which belong together."""
 ASIDE = 0.02
 """Twins are this near to each other's mirror image, in machine sizes."""
+AHEAD, OUT = 0.25, 0.02
+"""What is this far ahead of the middle of a machine's stand, or behind it, in its sizes, and more of its surface than
+this share, has a middle of its own …"""
+APART = (0.01, 0.12)
+"""… if it is so far from the machine's, in its sizes: farther to one side is another machine."""
 BESIDE = 2.0
 """What is of one half of a hydraulic cylinder is off the line of its longest bar by no more than so many of its widths
 (ports, pipes along it, clamps), and no farther beyond its ends than this share of its length."""
@@ -44,7 +49,8 @@ class Bond:
     rod.
 
     `branch`: 1 where `b` is the child of `a` in the scene's tree, -1 where it is the parent; `alike`: whether they are
-    one shape, mirrored: of one body, or of twins.
+    one shape, mirrored: of one body, or of twins; `paired`: whether they are bars of one shape left and right of the
+    machine's middle, or of that of what reaches out of it: no halves of two cylinders, unless these are twins.
 
     `same` has `beside` (1: neighbours), `flat` (how much of the smaller one lies flat on the other, 0 to 1), `sunk`
     (the share of one inside of the other), `welded` (one cluster of what the contacts alone found), `kin` (one assembly
@@ -61,6 +67,7 @@ class Bond:
     alike: bool = False
     level: bool = False
     turned: bool = False
+    paired: bool = False
 
 
 def bonds_of(observation: Observation, pieces: Sequence[Piece], structure: Structure, stance: Stance) -> list[Bond]:
@@ -78,11 +85,11 @@ def bonds_of(observation: Observation, pieces: Sequence[Piece], structure: Struc
     gaps = _gaps(observation, pieces)
     welded = _welded(observation, structure)
     stems = _stems(observation, pieces)
-    twins = _mirrored(pieces, stance)
+    twins, paired = _mirrored(pieces, stance), _paired(pieces, stance)
     pairs = [(piece_of[i], piece_of[j]) for i, j in observation.branches if i in piece_of and j in piece_of]
     tree = {_pair(child, parent): 1 if child > parent else -1 for child, parent in pairs if child != parent}
     found = []
-    for a, b in sorted({*flat, *hinged, *slides, *kin, *stems, *twins, *gaps, *tree}):
+    for a, b in sorted({*flat, *hinged, *slides, *kin, *stems, *twins, *paired, *gaps, *tree}):
         same = {"branch": float((a, b) in tree)}
         same |= {"kin": kin.get((a, b), 0.0), "stem": stems.get((a, b), 0.0)}
         if (a, b) in gaps:
@@ -102,6 +109,7 @@ def bonds_of(observation: Observation, pieces: Sequence[Piece], structure: Struc
             Bond(
                 a, b, same, (a, b) in gaps, (a, b) in hinged, (a, b) in slides, tree.get((a, b), 0), (a, b) in twins,
                 level=any(cosine > ALIKE for cosine in across), turned=any(cosine < NOT_ACROSS for cosine in across),
+                paired=(a, b) in paired,
             )
         )  # fmt: skip
     return found
@@ -145,10 +153,11 @@ def _together(groups: Iterable[set[int]], most: float) -> dict[tuple[int, int], 
     return found
 
 
-def _mirrored(pieces: Sequence[Piece], stance: Stance) -> set[tuple[int, int]]:
-    """Pairs of pieces of one shape on the two sides of the machine."""
+def _mirrored(pieces: Sequence[Piece], stance: Stance, middle: float = 0.0) -> set[tuple[int, int]]:
+    """Pairs of pieces of one shape on the two sides of what is so far to the left of the machine's middle, in machine
+    sizes."""
     found = set()
-    places = np.array([stance.place(p.center) for p in pieces]).reshape(-1, 3)
+    places = np.array([stance.place(p.center) for p in pieces]).reshape(-1, 3) - np.array([0.0, middle, 0.0])
     for a, one in enumerate(pieces):
         mirrored = places[a] * np.array([1.0, -1.0, 1.0])
         near = np.linalg.norm(places - mirrored, axis=1) < ASIDE
@@ -158,6 +167,26 @@ def _mirrored(pieces: Sequence[Piece], stance: Stance) -> set[tuple[int, int]]:
             if a < b and equal and np.allclose(one.spread, other.spread, rtol=0.03, atol=0.002 * stance.size):
                 found.add((a, b))
     return found
+
+
+def _paired(pieces: Sequence[Piece], stance: Stance) -> set[tuple[int, int]]:
+    """Pairs of bars of one shape on the two sides of the machine, or of what reaches out of it."""
+    middles = (0.0, *_middles_of_what_reaches_out(pieces, stance))
+    pairs = {pair for middle in middles for pair in _mirrored(pieces, stance, middle)}
+    return {(a, b) for a, b in pairs if pieces[a].is_bar and pieces[b].is_bar}
+
+
+def _middles_of_what_reaches_out(pieces: Sequence[Piece], stance: Stance) -> list[float]:
+    """How far to the left of the machine's middle that of what is in front of its stand is, and that of what is behind,
+    in machine sizes: booms stand beside the cab, and what hangs on them is in pairs left and right of their middle.
+    None of what is in the middle, or too far from it (`APART`)."""
+    places = np.array([stance.place(p.samples) for p in pieces]).reshape(-1, 3)
+    weights = np.repeat([p.area / len(p.samples) for p in pieces], [len(p.samples) for p in pieces])
+    found = []
+    for out in (places[:, 0] > AHEAD, places[:, 0] < -AHEAD):
+        if weights[out].sum() > OUT * weights.sum():
+            found.append(float(weights[out] @ places[out, 1] / weights[out].sum()))
+    return [middle for middle in found if APART[0] <= abs(middle) <= APART[1]]
 
 
 def out_of_line(pieces: Sequence[Piece]) -> NDArray[np.bool_]:

@@ -39,16 +39,16 @@ NEVER = -1e6
 class Field:
     """The score as arrays. Labels are the `bodies`, and last: none. `unary` (pieces, labels). Bond k joins the pieces
     `ends[k]`; its `weights[k]` are what it counts for one body, for bodies that a joint joins, and for one body or left
-    and right twins, which `twins` (labels, labels) are; it holds a joint
-    nearly (`near[k]`), or exactly as each kind of joint (`exact[k]`: `KINDS`). `joint` (labels, labels): the joint
-    between two labels, or the number of joints. `kind` (joints + 1,): which of `KINDS` a joint is. `played` (labels,):
-    what each body counts that is there; `held` what a joint counts that is held nearly, and exactly. `astray` (pieces,
-    pieces): what two pieces count that are both of one half of a hydraulic cylinder, `halves` (labels,), but not in
-    line. `order` (bonds,): what it counts that the second end's body is farther from the root than the first's, by the
-    scene's tree; `farther` (labels, labels): 1 where the second label is, -1 where the first is. `off` (n, 2): the
-    pairs of `astray`. `sides`: (labels,) each, the labels with what is joined of the left and of the right in each
-    other's place; `twin` (labels,): the label of the other side, or the same. `mirrored` (n, 2): the pieces that are
-    mirror images of each other."""
+    and right twins, which `twins` (labels, labels) are, and for `unpaired` bodies; it holds a joint nearly (`near[k]`),
+    or exactly as each kind of joint (`exact[k]`: `KINDS`). `joint` (labels, labels): the joint between two labels, or
+    the number of joints. `kind` (joints + 1,): which of `KINDS` a joint is. `played` (labels,): what each body counts
+    that is there; `held` what a joint counts that is held nearly, and exactly. `astray` (pieces, pieces): what two
+    pieces count that are both of one half of a hydraulic cylinder, `halves` (labels,), but not in line; `cylinder`
+    (labels,): which one they are of, twins as one. `order` (bonds,): what it counts that the second end's body is
+    farther from the root than the first's, by the scene's tree; `farther` (labels, labels): 1 where the second label
+    is, -1 where the first is. `off` (n, 2): the pairs of `astray`. `sides`: (labels,) each, the labels with what is
+    joined of the left and of the right in each other's place; `twin` (labels,): the label of the other side, or the
+    same. `mirrored` (n, 2): the pieces that are mirror images of each other."""
 
     bodies: tuple[str, ...]
     unary: Floats
@@ -63,6 +63,7 @@ class Field:
     held: tuple[float, float]
     astray: Floats
     halves: NDArray[np.bool_]
+    cylinder: Ints
     order: Floats
     farther: Floats
     off: Ints
@@ -105,18 +106,25 @@ class Field:
         return np.arange(pieces) * count, first, second
 
     @cached_property
+    def unpaired(self) -> NDArray[np.bool_]:
+        """(labels, labels) whether they are halves of two hydraulic cylinders that are no twins."""
+        return (self.halves[:, None] & self.halves) & (self.cylinder[:, None] != self.cylinder)
+
+    @cached_property
     def by_pair(self) -> Floats:
-        """(labels * labels, 4) what two labels are to each other, as numbers: one body, joined, one body or twins, and
-        `farther`: what a bond's `weights` and `order` count."""
+        """(labels * labels, 5) what two labels are to each other, as numbers: one body, joined, one body or twins,
+        `unpaired`, and `farther`: what a bond's `weights` and `order` count."""
         same = np.eye(len(self.joint), dtype=np.bool_)
         same[-1, -1] = False
         return (
-            np.stack([same, self.joint < self.joints, self.twins, self.farther], axis=-1).reshape(-1, 4).astype(float)
+            np.stack([same, self.joint < self.joints, self.twins, self.unpaired, self.farther], axis=-1)
+            .reshape(-1, 5)
+            .astype(float)
         )
 
     @cached_property
     def by_bond(self) -> Floats:
-        """(bonds * 4,) what each bond counts of it."""
+        """(bonds * 5,) what each bond counts of it."""
         return np.column_stack([self.weights, self.order]).ravel()
 
 
@@ -169,11 +177,12 @@ def field_of(
                     weighed(b.same, weights),
                     weights["joined"] * b.beside + weights["branched"] * abs(b.branch),
                     weights["alike"] * b.alike,
+                    weights["unpaired"] * b.paired,
                 )
                 for b in bonds
             ],
             dtype=np.float64,
-        ).reshape(-1, 3),
+        ).reshape(-1, 4),
         np.array([b.beside for b in bonds], dtype=np.int64),
         np.array([(b.slide, b.hinge, b.level, b.turned) for b in bonds], dtype=np.int64).reshape(-1, len(KINDS)),
         joint,
@@ -183,6 +192,7 @@ def field_of(
         (near, weights["exact"]),
         np.asarray(weights["astray"] * lined, dtype=np.float64),
         np.array([template.role(b).kind in BARS for b in bodies] + [False]),
+        _cylinders(bodies, template),
         weights["ordered"] * np.array([b.branch for b in bonds], dtype=np.float64),
         _farther(bodies, template),
         np.argwhere(np.triu(lined)),
@@ -190,6 +200,19 @@ def field_of(
         np.array([at.get(twin_role(b) or b, k) for b, k in at.items()] + [none], dtype=np.int64),
         np.array([(b.a, b.b) for b in bonds if b.alike], dtype=np.int64).reshape(-1, 2),
     )
+
+
+def _cylinders(bodies: Sequence[str], template: Template) -> Ints:
+    """(labels,) the number of the hydraulic cylinder that each body is half of, of left and right twins one; 0 for what
+    is none."""
+    halves = [b for b in bodies if template.role(b).kind in BARS]
+    slides = [template.bodies_of(j) for j in template.joints if j.type == "prismatic"]
+    graph = networkx.Graph([pair for pair in slides if set(pair) <= set(halves)])
+    graph.add_nodes_from(halves)
+    graph.add_edges_from((b, twin_role(b)) for b in halves if twin_role(b) in halves)
+    groups = sorted(networkx.connected_components(graph), key=sorted)
+    number = {b: k for k, group in enumerate(groups, 1) for b in group}
+    return np.array([number.get(b, 0) for b in bodies] + [0], dtype=np.int64)
 
 
 def _farther(bodies: Sequence[str], template: Template) -> Floats:

@@ -55,6 +55,11 @@ class Piece:
         return bool(long > SLENDER * wide and min(wide / max(thick, 1e-9), self.flat) < ROUND)
 
     @property
+    def is_bar(self) -> bool:
+        """True for a bar, and for what was seen to be half of a hydraulic cylinder."""
+        return self.kind in ("barrel", "rod") or self.slender
+
+    @property
     def size(self) -> float:
         """Diagonal of its box, metres."""
         return float(np.linalg.norm(self.high - self.low))
