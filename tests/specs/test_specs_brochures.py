@@ -117,6 +117,25 @@ def test_a_label_and_its_value_may_share_a_ruled_cell(tmp_path: Path) -> None:
         "Overall Length": 8.12, "Digging Depth": 6.51, "Wheelbase": 3.3, "Overall Height": 3.35}  # fmt: skip
 
 
+def test_labels_set_against_their_values_in_two_columns_with_headings_in_the_middle(tmp_path: Path) -> None:
+    others = (("Fuel tank", "315", "L"), ("Hydraulic oil tank", "148", "L"), ("Engine oil", "23", "L"),
+              ("Coolant", "38", "L"), ("Final drives", "12", "L"))  # fmt: skip
+    c = canvas(tmp_path / "a.pdf")
+    for x, heading in ((180, "Dimensions"), (440, "Service capacities")):
+        put(c, x - 20, _TOP + 16, heading, size=10, bold=True)
+    for i, ((label, value, unit, _), (name, number, litres)) in enumerate(zip(_ROWS, others, strict=True)):
+        y = _TOP - 13 * i - 4 * (i > 2)
+        put(c, 175, y, label, right=True)
+        put(c, 185, y, f"{value} {unit}", bold=True)
+        put(c, 435, y - 3, name, right=True)
+        put(c, 445, y - 3, f"{number} {litres}", bold=True)
+    c.save()
+    sheet = read_sheet(tmp_path / "a.pdf")
+    assert lengths(tmp_path / "a.pdf") == _ALL_OK
+    assert {s.section for s in sheet.statements if s.label in ("Wheelbase", "Coolant")} == {
+        "Dimensions", "Service capacities"}  # fmt: skip
+
+
 def test_footnotes_and_their_signs_are_no_values_and_no_words(tmp_path: Path) -> None:
     c = canvas(tmp_path / "a.pdf")
     for i, (label, value, unit, _) in enumerate(_ROWS):

@@ -16,6 +16,7 @@ from yellowiron.specs.language.vocabulary import tokens
 from yellowiron.specs.layout.statement import Statement, without_key
 from yellowiron.specs.pages.words import Word, read_page
 from yellowiron.specs.reader import Sheet, read_sheet
+from yellowiron.specs.recognition.mending import with_whole_units
 
 
 def drawn(path: Path, words: int, *, letters: int = 5, typed: int = 1) -> Path:
@@ -64,6 +65,11 @@ def test_of_such_a_page_only_what_was_recognised_is_for_review() -> None:
     found = {s.name: (s.status, s.value) for s in from_sheets(asked, [sheet])}
     assert found == {"Wheelbase": ("ok", pytest.approx(3.45)), "Tread": ("review", pytest.approx(2.3))}
     assert [f.code for f in unread_pages([sheet])] == ["SPC005"]
+
+
+def test_a_unit_set_with_wide_gaps_is_one() -> None:
+    spaced = [at(10, "Dimensions"), at(60, "(m"), at(72, "m)"), at(100, "(at"), at(115, "45°)")]
+    assert [w.text for w in with_whole_units(spaced)] == ["Dimensions", "(mm)", "(at", "45°)"]
 
 
 @pytest.mark.parametrize(

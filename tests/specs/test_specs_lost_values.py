@@ -180,3 +180,10 @@ def test_what_a_cell_says_in_itself_gives_way_to_the_words_around_a_value() -> N
     cell, beside = said("Arm", "880 mm"), Near("left", said("Arm length", "1,690 mm", row=3))
     found = from_sheets(asked, [Sheet("a.pdf", 1, (cell,), (), "point", near=(beside,))]).values["Arm Length"]
     assert (found.status, found.value) == ("review", pytest.approx(1.69))
+
+
+def test_a_speed_of_nothing_gives_way_to_one_that_can_be() -> None:
+    asked = template(wanted("Maximum Travel Speed", "speed", "travel speed", minimum=1.0, maximum=40.0))
+    cell, beside = said("Travel speed", "0 mph"), Near("left", said("Travel speed", "65 mph", row=3))
+    found = from_sheets(asked, [Sheet("a.pdf", 1, (cell,), (), "point", near=(beside,))]).values["Maximum Travel Speed"]
+    assert (found.status, found.value) == ("review", pytest.approx(29.0576))

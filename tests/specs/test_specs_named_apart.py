@@ -146,6 +146,21 @@ def test_a_labels_second_line_may_begin_with_a_number(tmp_path: Path) -> None:
     assert all(s.value != 2.44 for s in extract(ASKED, [tmp_path / "a.pdf"]))
 
 
+def test_a_list_in_a_frame_is_no_table(tmp_path: Path) -> None:
+    c = canvas(tmp_path / "a.pdf")
+    rows = ("Raise time 11.2 s", "Blade height 1.69 m", "Blade weight 4570 kg", "Capac. max. 36 %", "Power 52 kW")
+    for index, text in enumerate(rows):
+        y = 700 - 20 * index
+        c.rect(50, y - 6, 20, 20)
+        c.rect(70, y - 6, 300, 20)
+        put(c, 80, y, text)
+    c.save()
+    found = said(extract(ASKED, [tmp_path / "a.pdf"]))
+    assert found["Raise Time"] == ("ok", 11.2)
+    assert found["Blade Height"] == ("ok", 1.69)
+    assert found["Blade Weight"] == ("ok", 4570.0)
+
+
 @pytest.mark.parametrize("ruled", [True, False])
 def test_rows_that_end_in_the_number_that_they_begin_with(tmp_path: Path, ruled: bool) -> None:
     c = canvas(tmp_path / "a.pdf")

@@ -50,6 +50,14 @@ def test_rules_a_point_apart_are_one_only_where_they_touch() -> None:
     assert merged([left, DrawnRule(546, 323.0, 600, 323.0)]) == [DrawnRule(40, 323.0, 600, 323.0)]
 
 
+def test_two_speeds_before_both_in_the_other_system() -> None:
+    claims = claims_of([stated("Travel speed (loaded/unloaded)", "23 km/h / 25 km/h (14.3 mph / 15.5 mph)")], _POINT)
+    assert [(c.words, c.quantity.value) for c in claims] == [
+        ("Travel speed (loaded)", 23.0),
+        ("Travel speed (unloaded)", 25.0),
+    ]
+
+
 def test_factors_with_slashes_in_the_order_of_their_initials() -> None:
     claims = claims_of([stated("Dimensiones de la horquilla T x A x L", "40/100/1070 mm")], _POINT)
     assert [c.words.split()[-1] for c in claims] == ["thickness", "width", "length"]

@@ -59,6 +59,32 @@ def test_rows_that_no_rule_parts_have_a_line_in_every_cell(tmp_path: Path) -> No
     assert found(tmp_path / "a.pdf", "MW 120") == ok(_SECOND)
 
 
+def test_a_table_of_pairs_has_values_in_words_too(tmp_path: Path) -> None:
+    """A label and its value twice in a row: words in the left one's place are no label of the right one."""
+    c = canvas(tmp_path / "a.pdf")
+    rows = [
+        ("Built in", "Shandong", "Dimension (L*W*H)", "6340*1857*2920 mm"),
+        ("Tank volume", "1.93 m3", "Discharge", "1.5 m3"),
+        ("Model", "ZL 12 turbo", "Ground clearance", "292 mm"),
+        ("Wheelbase", "2440 mm", "Gradeability", "30 °"),
+    ]
+    for i in range(len(rows) + 2):
+        c.line(40, 760 - 20 * i, 480, 760 - 20 * i)
+    for x in (40, 480):
+        c.line(x, 760, x, 660)
+    for x in (150, 250, 370):
+        c.line(x, 740, x, 660)
+    put(c, 180, 746, "TECHNICAL SPECIFICATIONS", bold=True)
+    for i, row in enumerate(rows):
+        for x, text in zip((44, 154, 254, 374), row, strict=True):
+            put(c, x, 726 - 20 * i, text)
+    c.save()
+    assert found(tmp_path / "a.pdf") == ok(
+        {"Overall Length": 6.34, "Overall Width": 1.857, "Overall Height": 2.92, "Ground Clearance": 0.292,
+         "Wheelbase": 2.44}
+    )  # fmt: skip
+
+
 def test_walls_of_some_rows_hold_in_those_that_lack_them(tmp_path: Path) -> None:
     """As where a picture's faint walls are lost; the numbers that count the rows are no values, though one is lost."""
     c = canvas(tmp_path / "a.pdf")

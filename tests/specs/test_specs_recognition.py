@@ -19,7 +19,7 @@ from yellowiron.specs.layout.statement import Statement, looks_like_value
 from yellowiron.specs.ocr import with_cubes
 from yellowiron.specs.pages.words import Page, Word
 from yellowiron.specs.reader import PageRead, read_sheet
-from yellowiron.specs.recognition.mending import levelled, without_leaders
+from yellowiron.specs.recognition.mending import levelled, with_whole_units, without_leaders
 from yellowiron.specs.recognition.rapid import words_of_line
 from yellowiron.specs.recognition.spelling import spelled
 from yellowiron.specs.recognition.straighten import straightened
@@ -54,6 +54,14 @@ def test_letters_that_are_set_apart_are_of_one_word() -> None:
     letters = [(c, x) for c, x in letters if c.isalpha()]
     found = words_of_line(picture, (14, 8, 690, 52), letters, 2.0)
     assert [w.text for w in found] == ["TECHNICAL", "DATA"]
+
+
+def test_the_factors_of_a_product_are_one_word() -> None:
+    def texts(*seen: str) -> list[str]:
+        return [w.text for w in with_whole_units([word(text) for text in seen])]
+
+    assert texts("2752x", "1450x2205") == texts("2752", "x1450x2205") == ["2752x1450x2205"]
+    assert texts("13.00x24", "16PR") == ["13.00x24", "16PR"] and texts("(m", "m)") == ["(mm)"]
 
 
 @pytest.mark.parametrize("points", [1.0, 8.0])

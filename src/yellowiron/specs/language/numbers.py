@@ -9,6 +9,7 @@ from __future__ import annotations
 
 import re
 from dataclasses import dataclass, replace
+from itertools import pairwise
 from typing import Literal
 
 from yellowiron.specs.language.decimal_style import DecimalStyle
@@ -147,7 +148,7 @@ def _shared_unit(run: list[Quantity]) -> tuple[Quantity, ...]:
 def _paired(text: str, readings: list[tuple[Reading, int, int]]) -> list[tuple[Reading, int, int]]:
     """Neighbours that are one value in two systems of measurement become one reading with its partner."""
     paired: list[tuple[Reading, int, int]] = []
-    for reading, start, end in readings:
+    for reading, start, end in _listed_twice(text, readings):
         if paired:
             before, first, last = paired[-1]
             if not before.partner and _is_other_system(before, reading) and _only_brackets(text[last:start]):
@@ -155,6 +156,21 @@ def _paired(text: str, readings: list[tuple[Reading, int, int]]) -> list[tuple[R
                 continue
         paired.append((reading, start, end))
     return _product_of_pairs(text, paired)
+
+
+def _listed_twice(text: str, readings: list[tuple[Reading, int, int]]) -> list[tuple[Reading, int, int]]:
+    """ "23 km/h / 25 km/h (14.3 mph / 15.5 mph)": a list in one system, and the same again in the other one."""
+    half = len(readings) // 2
+    if half < 2 or len(readings) % 2:
+        return readings
+    pairs = list(zip(readings[:half], readings[half:], strict=True))
+    alike = all(_is_other_system(a, b) and all(map(same, a.numbers, b.numbers)) for (a, _, _), (b, _, _) in pairs)
+    if not alike or not all(_only_brackets(text[a[2] : b[1]]) for a, b in pairwise(readings)):
+        return readings
+    return [
+        (replace(a, partner=b.numbers), start, end if index < half - 1 else last)
+        for index, ((a, start, end), (b, _, last)) in enumerate(pairs)
+    ]
 
 
 def _product_of_pairs(text: str, readings: list[tuple[Reading, int, int]]) -> list[tuple[Reading, int, int]]:

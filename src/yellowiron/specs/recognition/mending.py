@@ -8,6 +8,7 @@ from bisect import bisect_left, bisect_right
 from collections.abc import Sequence
 from dataclasses import replace
 
+from yellowiron.specs.layout.statement import is_unit
 from yellowiron.specs.pages.words import Word
 
 _PLAIN = str.maketrans("（），：／％", "(),:/%")
@@ -27,6 +28,25 @@ def mended(text: str) -> str:
     text = re.sub(r"(?<![A-Za-z])I(?=(?:pm|bs?|bf)(?![A-Za-z]))", "l", text)
     text = re.sub(r"(?<=[A-Za-z])[.…]{2,}$|^[.…]+(?=\d{3}|\d+[x×])|^[.…]{2,}(?=\d)", "", text)
     return text or "."
+
+
+_FACTORS = re.compile(r"^\d\S*[x×*] \d|^\d\S*\d [x×*]\d")
+"""Two words that are factors of one product."""
+
+
+def with_whole_units(words: Sequence[Word]) -> list[Word]:
+    """The words of a line, a unit in brackets that is set with wide gaps in one, and a product: "(m", "m)" → "(mm)",
+    "2752x", "1450x2205" → "2752x1450x2205"."""
+    found: list[Word] = []
+    for word in words:
+        last = found[-1] if found else None
+        whole = last.text + word.text if last else ""
+        unit = last and last.text[0] == "(" and whole[-1] == ")" and "(" not in word.text and is_unit(whole)
+        if last and (unit or _FACTORS.search(f"{last.text} {word.text}")):
+            found[-1] = replace(last, text=whole, x1=word.x1)
+        else:
+            found.append(word)
+    return found
 
 
 _DOTTED = 3

@@ -15,7 +15,7 @@ from numpy.typing import NDArray
 from PIL import Image
 
 from yellowiron.specs.pages.words import Word
-from yellowiron.specs.recognition.mending import mended, without_leaders
+from yellowiron.specs.recognition.mending import mended, with_whole_units, without_leaders
 
 _LONGEST_PX = 4000
 """Of a picture's longer side; the program would shrink it to 2000 by itself."""
@@ -102,9 +102,9 @@ def words_of_line(
         runs[-1][0].append(letter)
         before, spaced = (letter, at), False
     baseline, size = (top + last + 1) / scale, capital / scale / _CAP
-    return [
-        Word(mended("".join(text)), (left + x0) / scale, (left + x1) / scale, baseline, size) for text, x0, x1 in runs
-    ]
+    return with_whole_units(
+        [Word(mended("".join(text)), (left + x0) / scale, (left + x1) / scale, baseline, size) for text, x0, x1 in runs]
+    )
 
 
 def _ink(part: NDArray[np.float64]) -> NDArray[np.bool_]:

@@ -85,7 +85,7 @@ def second_reading(
             if found[name].status == "conflict" and settles:
                 found[name], brought[name] = _to_review(one, side, sheets), Nearby(one, side)
             used = any(_is_there(evidence, seen) and not (listed and value != own) for seen, value in taken)
-            if not used and (found[name].status == "missing"):
+            if not used and (found[name].status == "missing" or _is_nothing(asked[name], found[name])):
                 found[name], brought[name] = _to_review(one, side, sheets), Nearby(one, side)
                 taken.append((evidence, own))
     return found, brought
@@ -116,6 +116,11 @@ def _undisputed(
             if sure and not _differ(sure):
                 found[side][name] = sure[0]
     return found, chosen
+
+
+def _is_nothing(wanted: Wanted, value: Specification) -> bool:
+    """Whether what the rules bring for review says of a thing that there is none: a travel speed of 0 mph."""
+    return value.status == "review" and value.value == 0.0 and not usual(wanted, 0.0)
 
 
 def _differ(matches: Sequence[Match]) -> bool:

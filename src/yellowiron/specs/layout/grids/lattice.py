@@ -16,7 +16,7 @@ from yellowiron.specs.layout.grids.partly_ruled import (
 )
 from yellowiron.specs.layout.grids.table_grid import Cell, TableGrid
 from yellowiron.specs.layout.rows.lines import lines_of
-from yellowiron.specs.layout.statement import join_boxes
+from yellowiron.specs.layout.statement import join_boxes, split_inline
 from yellowiron.specs.layout.tolerances import HEADING_BAR
 from yellowiron.specs.pages.fills import edges_of_fills
 from yellowiron.specs.pages.strokes import SNAP, Box, DrawnRule
@@ -49,7 +49,7 @@ def grids_of(page: Page) -> list[TableGrid]:
             parts = [part for boxes in cells_to_tables(cells) for part in _apart(boxes)]
             grids += [with_columns(with_rows(with_values_apart(_grid(boxes, page.words)))) for boxes in parts]
     grids = [g for g in grids if g.columns >= 2 and sum(bool(c.lines) for c in g.cells) >= 2]
-    grids = [g for g in grids if not _is_frame(g)]
+    grids = [g for g in grids if not _is_frame(g) and not _is_list(g)]
     tables = [g for g in grids if g.rows >= 2 and sum(bool(c.lines) for c in g.cells) >= 3]
     found = [g for g in grids if any(g is t or (g.rows == 1 and _are_level(g, t)) for t in tables)]
     return sorted(found, key=lambda g: (g.box[1], g.box[0]))
@@ -170,6 +170,17 @@ def _apart(boxes: list[Box]) -> list[list[Box]]:
         if min(bottom, other_bottom) - max(top, other_top) < 1.5 * min(b[3] - b[1] for b in boxes):
             return [*_apart(left), *_apart(right)]
     return [boxes]
+
+
+def _is_list(grid: TableGrid) -> bool:
+    """Whether every row is one text, and most of these a name and its value: a list in a frame, no table."""
+    filled = [c for c in grid.cells if c.lines]
+    rows = sum(bool(split_inline(c.text)[0]) for c in filled)
+    return len({c.rows[0] for c in filled}) == len(filled) and rows >= _FEWEST_ROWS and 2 * rows >= len(filled)
+
+
+_FEWEST_ROWS = 4
+"""Names with their values that make a list."""
 
 
 def _is_frame(grid: TableGrid) -> bool:

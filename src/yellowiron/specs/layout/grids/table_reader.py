@@ -55,7 +55,9 @@ def read_grid(
     page: Page, grid: TableGrid, first_row: int, section: str = "", above: Sequence[TextPiece] = ()
 ) -> list[Statement]:
     """The statements of a table: a value's label is the words to its left, its column the heads above; `above` are
-    heads that stand over the table, outside of it."""
+    heads that stand over the table, outside of it. A table of pairs is two, side by side."""
+    if halves := _halves(grid):
+        return [s for half in halves for s in read_grid(page, half, first_row, section, above)]
     found: list[Statement] = []
     titles = _titles(grid)
     grid, slipped = units_in_their_rows(_with_names_carried(_without_keys(grid)))
@@ -114,6 +116,26 @@ def read_grid(
             own = [_headed(f, above) for f in own]
         found.extend(own)
     return [replace(f, slipped=f.row - first_row in slipped) for f in found] if slipped else found
+
+
+def _halves(grid: TableGrid) -> list[TableGrid]:
+    """The halves of a table of pairs (a label and its value twice in a row, some in words); none of others."""
+    columns = [[c for c in grid.cells if c.lines and c.columns == (at, at + 1)] for at in range(grid.columns)]
+    apart = all(c.columns == (0, 4) or c.columns[1] - c.columns[0] == 1 for c in grid.cells if c.lines)
+    if grid.columns != 4 or not apart:
+        return []
+    values = [[c for c in column if looks_like_value(c.text)] for column in columns]
+    labelled = not (values[0] or values[2]) and all(len(columns[at]) >= MANY // 2 for at in (0, 2))
+    valued = all(3 * len(values[at]) >= len(columns[at]) > 0 for at in (1, 3))
+    rows = {c.rows for c in values[3]} & {c.rows for c in columns[1] if _is_label(c)}
+    if not (labelled and valued and rows) or any(is_unit(c.text) for column in columns for c in column):
+        return []
+    halves = []
+    for at in (0, 2):
+        own = [c for c in grid.cells if c.columns == (0, 4) or at <= c.columns[0] < c.columns[1] <= at + 2]
+        own = [replace(c, columns=(max(c.columns[0] - at, 0), min(c.columns[1] - at, 2))) for c in own]
+        halves.append(replace(grid, cells=tuple(own), columns=2))
+    return halves
 
 
 def _sentences(

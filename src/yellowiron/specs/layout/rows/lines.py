@@ -146,7 +146,7 @@ def _gutter(lines: Sequence[TextLine], bars: Sequence[Box], across: Sequence[Box
     drawn = [*by_bars, *_of_broken_rules(lines, across)]
     running = _of_running_text(lines)
     best: tuple[int, float, int, int] | None = None
-    for x in [*_of_repeated_labels(lines), *drawn, *running]:
+    for x in [*_of_repeated_labels(lines), *_of_right_set_labels(lines), *drawn, *running]:
         first, last, weight = _run(lines, across, x)
         part = lines[first:last]
         parts = sum(_has_value_left_of(line, x) for line in part) >= 2 or (
@@ -256,6 +256,22 @@ def _of_broken_rules(lines: Sequence[TextLine], across: Sequence[Box]) -> list[f
         kinds = [kind_of(p) for p in pieces[bisect_right(starts, x - 12) : bisect_left(starts, x + 12)]]
         if len(kinds) >= 3 and kinds.count("text") >= 0.6 * len(kinds):
             found.append(x)
+    return found
+
+
+def _of_right_set_labels(lines: Sequence[TextLine]) -> list[float]:
+    """Where the longest of labels begins that are set against their values: they end level with each other."""
+    ends: dict[int, list[TextPiece]] = {}
+    for line in lines:
+        for label, value in zip(line.pieces, line.pieces[1:], strict=False):
+            if kind_of(label) == "text" and kind_of(value) == "value":
+                ends.setdefault(round(label.x1 / 2), []).append(label)
+    found = []
+    for key in sorted(ends):
+        near = ends[key] + ends.get(key + 1, [])
+        starts = {round(label.x0 / 3) for label in near}
+        if len(near) >= 4 and len(starts) > 0.6 * len(near):
+            found.append(min(label.x0 for label in near))
     return found
 
 
