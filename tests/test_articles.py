@@ -42,6 +42,7 @@ def test_what_is_told_to_be_wrong() -> None:
     assert all(map(_WRONG.search, wrong)) and not any(map(_WRONG.search, right[:-1]))
 
 
+@pytest.mark.slow
 def test_an_article_before_what_is_filled_in_is_chosen_by_it(root: Path, nodes: list[tuple[Path, ast.AST]]) -> None:
     """Literals with an article at their end, before a value: `with_article` gives both. A number is written out."""
     bare = []
@@ -70,6 +71,7 @@ def test_the_program_itself_says_none(nodes: list[tuple[Path, ast.AST]]) -> None
     assert found == []
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize("kind", list_templates())
 def test_of_every_type(
     kind: str, tmp_path: Path, capsys: pytest.CaptureFixture[str], monkeypatch: pytest.MonkeyPatch

@@ -102,6 +102,7 @@ def test_the_same_pieces_every_time() -> None:
     assert [p.points.tobytes() for p in first] == [p.points.tobytes() for p in second]
 
 
+@pytest.mark.slow
 def test_a_fine_curved_shell_gets_few_pieces_and_stays_hollow() -> None:
     outer, inner = trimesh.creation.icosphere(4, 0.5), trimesh.creation.icosphere(4, 0.48)
     inner.invert()

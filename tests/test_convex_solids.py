@@ -127,6 +127,7 @@ def test_a_hull_is_what_it_is_of(seed: int, count: int) -> None:
     assert moved.beyond(points + shift) == pytest.approx(made.beyond(points), abs=1e-8)
 
 
+@pytest.mark.slow
 @given(st.integers(0, 10_000))
 @settings(max_examples=20, deadline=None)
 def test_few_corners_are_enough(seed: int) -> None:

@@ -85,6 +85,7 @@ def test_every_license_is_stated_and_lets_programs_be_anybody_s(installed: dict[
         assert not any(w in stated for w in COPYLEFT) or any(w in stated for w in LESSER), (name, stated)
 
 
+@pytest.mark.slow
 def test_what_is_imported_is_declared(root: Path, project: dict[str, Any]) -> None:
     declared = {canonicalize_name(Requirement(line).name) for line in project["dependencies"]}
     for extra in sorted(project["optional-dependencies"].keys() - {"dev"}):

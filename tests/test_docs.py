@@ -127,6 +127,7 @@ def test_the_environments_page_runs(root: Path, built: Path, tmp_path: Path, mon
     assert names["where"]
 
 
+@pytest.mark.slow
 def test_pages_made_from_docstrings_are_those_of_the_code(root: Path) -> None:
     """`python docs/generate.py` writes them anew."""
     spec = importlib.util.spec_from_file_location("generate", root / "docs" / "generate.py")

@@ -134,6 +134,7 @@ def test_a_telescopic_crane_builds(drawn: Drawn, tmp_path: Path) -> None:
     )
 
 
+@pytest.mark.slow
 def test_a_section_that_is_pinned_in_another_hole(drawn: Drawn, tmp_path: Path) -> None:
     """`positions`: nothing moves on the joint, in the template, the machine, USD and MJCF; `--set` draws what stands on
     it out, along the slide, and the rest as it was."""

@@ -43,6 +43,7 @@ def test_further_objects_are_known_by_identity() -> None:
     assert ask(thing, first) == ask(thing, second) == 1
 
 
+@pytest.mark.slow
 def test_an_answer_is_forgotten_with_its_object() -> None:
     @remembered
     def ask(thing: Thing) -> Made:

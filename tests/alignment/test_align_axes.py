@@ -98,6 +98,7 @@ def height_of(machine: Machine) -> float:
     return float(np.ptp(np.concatenate([assembly.points_of(p) for p in assembly.parts])[:, 2]))
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize("kind", ["loader", "excavator"])
 @pytest.mark.parametrize("defect", ["sound", "no pins", "visual"])
 def test_hinges_are_where_the_pins_are(kind: str, defect: str) -> None:

@@ -8,6 +8,7 @@ from kit.machines.defects import spoiled
 from kit.machines.unseen import found_whole
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize("triangles", [False, True])
 @pytest.mark.parametrize("seed", [301, 304])
 def test_every_part_is_in_its_body(seed: int, triangles: bool) -> None:

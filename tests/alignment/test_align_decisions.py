@@ -68,6 +68,7 @@ def test_brackets_are_letters_of_names() -> None:
     assert fits("shoe[*]")(part("TRACK", "shoe[3]"))
 
 
+@pytest.mark.slow
 def test_an_assembly_takes_the_role_that_a_person_gives_it(
     assembly: Assembly, template: Template, tmp_path: Path
 ) -> None:

@@ -62,6 +62,7 @@ def test_one_pin_gone(template: Template) -> None:
     assert right(found, truth) > 0.9
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize("embedded", [False, True])
 def test_no_pins_at_all(template: Template, embedded: bool) -> None:
     """Bores side by side on one axis are hinges too; the pins are named as missing."""
@@ -123,6 +124,7 @@ def test_a_bucket_by_its_names() -> None:
     assert [f.code for f in found.findings] == ["ALN003"]
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize(("kind", "library"), [("loader", "wheel_loader"), ("excavator", "excavator")])
 def test_neither_pins_nor_holes(kind: str, library: str) -> None:
     """Pivots are where parts have round ends side by side; the pins are named as missing."""

@@ -84,6 +84,7 @@ def beside(machine: Machine, gap: float) -> str:
     return machine.parts[-1].id
 
 
+@pytest.mark.slow
 def test_a_crate_far_away(template: Template) -> None:
     machine = loader(3)
     crate = beside(machine, 2.0)

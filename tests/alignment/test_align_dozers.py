@@ -27,6 +27,7 @@ from yellowiron.alignment.pipeline import align
 from yellowiron.model.specification import Specifications
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize(
     ("seed", "blade", "dual", "high", "ripper"),
     [
@@ -51,6 +52,7 @@ def test_every_part_is_in_its_body_from_triangles(seed: int) -> None:
     found_whole(drawn("dozer", seed), "dozer", seed, triangles=True)
 
 
+@pytest.mark.slow
 def test_a_dozer_of_which_a_cylinder_is_missing_is_not_whole() -> None:
     """Most of its joints are balls: they count, or a machine of another variant with half of them would do."""
     machine = dozer(602, "push_arms", dual=False, high=False, ripper=True)

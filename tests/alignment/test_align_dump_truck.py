@@ -30,6 +30,7 @@ def test_the_template_is_sound(template: Template) -> None:
     assert not [f for f in lint(template).findings if f.severity == "error"]
 
 
+@pytest.mark.slow
 def test_parts_are_in_their_bodies(found: tuple[Assembly, Alignment]) -> None:
     """An eye between the two halves of its cylinder is a guess, and asked."""
     _, alignment = found
@@ -49,6 +50,7 @@ def test_what_lies_against_another_assembly_goes_with_its_own(found: tuple[Assem
         assert bodies[f"DUMPER D30/HOIST CYLINDER {side}/FOOT EYE"] == f"tip_cyl_tube_{side.lower()}"
 
 
+@pytest.mark.slow
 def test_three_decisions_place_everything(found: tuple[Assembly, Alignment], template: Template) -> None:
     assembly, alignment = found
     wrong = [p.part for p in alignment.parts if p.body != BODIES[p.part]]

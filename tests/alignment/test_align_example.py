@@ -47,12 +47,14 @@ def solved_right(found: Alignment, truth: Truth, ids: dict[str, str], moved: np.
     assert found.frame == pytest.approx(np.array(truth["frame"]) @ np.linalg.inv(moved), abs=1e-7)
 
 
+@pytest.mark.slow
 def test_as_drawn(assembly: Assembly, truth: Truth) -> None:
     found = align(assembly, load_template("wheel_loader"), Specifications())
     solved_right(found, truth, {p.id: p.id for p in assembly.parts}, np.eye(4))
     assert np.isin(found.frame[:3, :3], (-1.0, 0.0, 1.0)).all()
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize("seed", [0, pytest.param(1, marks=pytest.mark.slow)])
 def test_nameless_turned_and_shuffled(assembly: Assembly, truth: Truth, seed: int) -> None:
     rng = np.random.default_rng(seed)

@@ -84,6 +84,7 @@ def whole(found: Alignment, features: Features) -> None:
     assert all(p.reason.startswith("touches") for p in found.parts if p.part in torn)
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize("kind", ["two_piece", "wide_blade"])
 def test_nameless(template: Template, kind: str) -> None:
     assembly, truth, frame = disguise(excavator(2, KINDS[kind]), 2)

@@ -99,6 +99,7 @@ def machines() -> dict[str, Assembly]:
     return {"loader": loader(1).assembly(), "excavator": excavator(1).assembly()}
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize("kind", ["loader", "excavator"])
 @pytest.mark.parametrize("revision", REVISIONS)
 def test_parts_are_found_again(machines: dict[str, Assembly], kind: str, revision: Revision) -> None:

@@ -244,6 +244,7 @@ def test_a_part_of_a_machine_stands_where_that_part_usually_is(seed: int) -> Non
     assert np.linalg.norm(np.ptp(places, axis=0)) == pytest.approx(np.linalg.norm(high - low), rel=1e-9)
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize("kind", ["loader", "excavator"])
 @pytest.mark.parametrize("seed", [2, 4])
 def test_the_stance_is_read_off_the_surface(kind: str, seed: int) -> None:

@@ -9,6 +9,7 @@ from kit.machines.graders import grader
 from kit.machines.unseen import found_whole
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize(
     ("seed", "behind", "gimbals", "ripper"),
     [

@@ -62,6 +62,7 @@ def test_a_machine_on_a_slab_is_told_as_without() -> None:
     assert all(p.body == truth[p.part][1] for p in found.parts if truth[p.part][1])
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize(("kind", "seed"), [("excavator", 4), ("loader", 4), ("loader", 5)])
 def test_a_smaller_machine_and_a_trailer_beside_it_are_no_parts_of_it(kind: str, seed: int) -> None:
     """The smaller machine may have more parts, and both stand nearer than what is far for all that is drawn."""

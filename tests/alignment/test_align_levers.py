@@ -96,6 +96,7 @@ def test_a_pin_that_leaves_no_lever_is_not_its_hinge_s() -> None:
     assert not without_lever(sound, elsewhere, template, SIZE), "it is where it was searched for"
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize("seed", [3, 4, 8])
 def test_a_boom_with_a_cylinder_s_foot_drawn_in_it_is_not_hinged_there(seed: int) -> None:
     """The boom's pin is not drawn, and the pins of its cylinders' feet were taken for the boom's."""

@@ -116,6 +116,7 @@ def test_one_word_turns_a_truck_that_was_found_back_to_front() -> None:
     assert wrong(mended) < wrong(after)
 
 
+@pytest.mark.slow
 def test_a_front_against_what_was_found_is_told_and_obeyed(
     assembly: Assembly, template: Template, plain: Alignment
 ) -> None:
@@ -143,6 +144,7 @@ def test_set_goes_before_a_variant_that_was_said(assembly: Assembly, template: T
 
 
 # ---- what is not drawn ----
+@pytest.mark.slow
 @pytest.mark.parametrize("body", ["bucket", "rear_frame"])
 def test_what_is_not_drawn_is_not_missed(body: str, assembly: Assembly, template: Template, plain: Alignment) -> None:
     drawn = without(assembly, plain, body)
@@ -194,6 +196,7 @@ def test_no_pins(assembly: Assembly, template: Template) -> None:
     assert not found.missing
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize("folder", [t for t in library.list_templates() if not library.is_sheet_only(t)])
 def test_a_template_holds_without_any_of_its_bodies(folder: str) -> None:
     every = choose(load_template(folder), {})

@@ -39,6 +39,7 @@ def wrong(found: Alignment, truth: dict[str, tuple[str, str]], template: Templat
     ]
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize("embedded", [False, True], ids=["touching", "embedded"])
 @pytest.mark.parametrize("seed", TUNED + HELD_BACK)
 def test_nameless(template: Template, seed: int, embedded: bool) -> None:
@@ -94,6 +95,7 @@ def test_the_drawn_frame_is_exact(template: Template) -> None:
     assert json.dumps(frame.tolist()) == json.dumps(align(assembly, template, NOTHING).frame.tolist())
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize("embedded", [False, True])
 def test_a_stop_against_both_frames(template: Template, embedded: bool) -> None:
     assembly, truth, _ = disguise(loader(7, stop=True, embedded=embedded), 7)
@@ -104,6 +106,7 @@ def test_a_stop_against_both_frames(template: Template, embedded: bool) -> None:
     assert len(found.to_review) <= 3
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize("embedded", [False, True])
 def test_hoses_tie_nothing_together(template: Template, embedded: bool) -> None:
     assembly, truth, _ = disguise(loader(8, hoses=6, embedded=embedded), 8)

@@ -151,6 +151,7 @@ def test_a_mesh_a_material_is_taken_apart_without_pins_too() -> None:
     assert sum(right) > 0.97 * len(right)
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize(
     ("whole", "apart", "taken"),
     [
@@ -181,6 +182,7 @@ def test_a_merged_mesh_is_taken_apart_where_that_finds_most_of_what_is_missing(
     assert (model is pieces) is taken
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize(("found_too", "taken"), [((), False), (("arm",), True)])
 def test_a_variant_with_fewer_limbs_finds_none(
     found_too: tuple[str, ...], taken: bool, monkeypatch: pytest.MonkeyPatch
@@ -204,6 +206,7 @@ def test_a_variant_with_fewer_limbs_finds_none(
     assert (model is pieces) is taken
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize(
     ("contradicted_before", "few", "taken"), [(False, False, False), (True, False, True), (False, True, True)]
 )

@@ -67,6 +67,7 @@ def solved(machine: Machine, kind: str, equipment_type: str, seed: int, *, names
     return found, [p.part for p in found.parts if truth[p.part][1] and p.body != truth[p.part][1]]
 
 
+@pytest.mark.slow
 def test_names_add_a_cylinder_that_was_not_told() -> None:
     missed = "bucket_piston_rod"
     machine = without_rounds(drawn("loader", 4), missed)
@@ -81,6 +82,7 @@ def test_names_add_a_cylinder_that_was_not_told() -> None:
     assert len(listed) <= 6
 
 
+@pytest.mark.slow
 def test_a_wheel_that_is_not_round_is_for_review() -> None:
     machine = boxed(drawn("loader", 4), "rear_wheel_l")
     found, wrong = solved(machine, "loader", "wheel_loader", 4, names=False)
@@ -88,6 +90,7 @@ def test_a_wheel_that_is_not_round_is_for_review() -> None:
     assert len(found.to_review) < 0.4 * len(found.parts)
 
 
+@pytest.mark.slow
 def test_what_a_barrel_is_fast_on_stays_what_it_is(monkeypatch: pytest.MonkeyPatch) -> None:
     """A rod that comes out at both ends, and is told by its eyes as one that hangs on pins."""
     monkeypatch.setattr(cylinders, "BEHIND", 30.0)

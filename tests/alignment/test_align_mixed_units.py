@@ -63,6 +63,7 @@ def test_touching_much_says_nothing_of_what_is_inside_the_machine(sound: Assembl
     assert not units.mended
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize("ratio", [1e3, 1e-3, 1 / INCH, INCH, 0.1])
 def test_one_part_in_another_unit(machine: Machine, sound: Assembly, ratio: float) -> None:
     part = of_body(machine, "bucket")[0]
@@ -80,6 +81,7 @@ def test_parts_that_fit_each_other_in_another_unit(machine: Machine, sound: Asse
     assert same_places(model, sound)
 
 
+@pytest.mark.slow
 def test_it_is_told_and_for_review(machine: Machine, sound: Assembly) -> None:
     part = of_body(machine, "bucket")[0]
     template = load_template("wheel_loader")
@@ -107,6 +109,7 @@ def test_a_part_whose_faces_fit_nothing_is_left_and_doubted(machine: Machine, so
     assert units.doubted == (part,)
 
 
+@pytest.mark.slow
 def test_what_no_unit_explains_is_for_review(machine: Machine, sound: Assembly) -> None:
     part = of_body(machine, "bucket_piston_rod")[0]
     spoiled = in_another_unit(sound, {part}, 517.0)
@@ -117,6 +120,7 @@ def test_what_no_unit_explains_is_for_review(machine: Machine, sound: Assembly) 
     assert part in found.to_review
 
 
+@pytest.mark.slow
 def test_of_half_the_parts_nobody_knows(sound: Assembly) -> None:
     spoiled = in_another_unit(sound, [p.id for p in sound.parts[::2]], 1e-3)
     model, units = in_one_unit(spoiled)

@@ -48,6 +48,7 @@ def test_right_names_make_nothing_worse(way: str) -> None:
     assert "ALN015" not in {f.code for f in found.findings}
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize("way", ["shuffled", pytest.param("opposite", marks=SLOW)])
 def test_wrong_names_are_found_out(way: str) -> None:
     found, wrong, silent = aligned("loader", "sound", way)

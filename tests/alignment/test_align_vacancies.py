@@ -59,6 +59,7 @@ def across(*given: Any, **more: Any) -> Stance:
     return found if found.told else replace(found, rotation=np.array([left, -forward, up]))
 
 
+@pytest.mark.slow
 def test_a_machine_without_its_base_is_looked_at_the_other_way(monkeypatch: pytest.MonkeyPatch) -> None:
     seen: list[Stance] = []
     look = reading.across
@@ -78,6 +79,7 @@ def test_a_machine_without_its_base_is_looked_at_the_other_way(monkeypatch: pyte
     assert not any(stance.told for stance in seen)
 
 
+@pytest.mark.slow
 def test_what_is_left_over_is_the_root_for_want_of_one() -> None:
     """The boom far aside makes the machine less alike to the left and right than in front and behind."""
     found = read(0.9)
@@ -87,6 +89,7 @@ def test_what_is_left_over_is_the_root_for_want_of_one() -> None:
     assert base.part in found.to_review
 
 
+@pytest.mark.slow
 def test_what_may_be_the_missing_root_is_no_sure_part_of_its_neighbour(monkeypatch: pytest.MonkeyPatch) -> None:
     """More than half of the surface was silently the superstructure's, because it lies flat against it."""
     monkeypatch.setattr(Vacancies, "root", lambda _: {})

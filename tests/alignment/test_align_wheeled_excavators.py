@@ -31,6 +31,7 @@ def test_every_part_is_in_its_body(seed: int, triangles: bool) -> None:
     assert {name: found.choices[name] for name in expected} == expected
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize(
     "seed", [pytest.param(1401, marks=pytest.mark.slow), 1403, pytest.param(1404, marks=pytest.mark.slow)]
 )

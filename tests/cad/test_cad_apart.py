@@ -151,6 +151,7 @@ def test_bars_that_are_no_cylinders_stay_together() -> None:
     assert twins_apart(driven) is driven
 
 
+@pytest.mark.slow
 @given(
     radius=st.floats(0.2, 2.0), width=st.floats(0.1, 0.7), track=st.floats(1.4, 4.0), count=st.integers(8, 40),
     axis=st.integers(0, 2),

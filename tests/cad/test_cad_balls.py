@@ -39,6 +39,7 @@ def socket() -> TopoDS_Shape:
     return cut(box(x - 90, x + 90, y - 90, y + 90, z - 20, z + 90), ball(CENTER, RADIUS))
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize("surfaces", ["exact", "triangles"])
 @pytest.mark.parametrize(("shape", "inner"), [(stud, False), (socket, True)])
 def test_a_ball_and_a_socket_are_found(surfaces: str, shape: object, inner: bool, tmp_path: Path) -> None:
@@ -50,6 +51,7 @@ def test_a_ball_and_a_socket_are_found(surfaces: str, shape: object, inner: bool
     assert 0.3 * 4.0 * math.pi * found.radius**2 < found.area < 4.0 * math.pi * found.radius**2
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize("surfaces", ["exact", "triangles"])
 def test_a_pin_has_no_ball(surfaces: str, tmp_path: Path) -> None:
     assert read(rod((0, 0, 0), Z, 30.0, 200.0), tmp_path, surfaces).spheres == ()

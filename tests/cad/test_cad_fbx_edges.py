@@ -26,6 +26,7 @@ def _written(path: Path, loose: tuple[int, ...], *, before: bool, binary: bool) 
     return path.read_bytes()
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize("binary", [True, False])
 @pytest.mark.parametrize("kind", LOOSE)
 def test_loose_edges_are_passed_over(kind: str, binary: bool, tmp_path: Path) -> None:

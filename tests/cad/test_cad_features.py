@@ -155,6 +155,7 @@ def test_block_in_any_pose(size: Any, at: Any, axis: Any, angle: float) -> None:
         assert np.dot(plane.normal, outward) > 0
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize("convert", [lambda shape: shape, to_nurbs], ids=["analytic", "freeform"])
 @pytest.mark.parametrize("far", [0.0, 5000.0])
 def test_faces_have_open_cascades_area_and_centre(convert: Any, far: float) -> None:

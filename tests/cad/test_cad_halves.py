@@ -122,6 +122,7 @@ def test_where_parts_end_from_both_sides_there_is_no_half() -> None:
     assert half_of(model([*boxes(cut=True), *beyond], np.eye(4))) is None
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize("kind", ["loader", "excavator"])
 @pytest.mark.parametrize("damage", ["sound", "opened", "no undercarriage", "extras", "ground"])
 def test_drawn_machines_are_no_halves(kind: str, damage: str, monkeypatch: pytest.MonkeyPatch) -> None:

@@ -110,6 +110,7 @@ def _oval(count: int, ratio: float, rng: np.random.Generator, noise: float) -> A
     return np.asarray((np.cos(turns) + 1j * ratio * np.sin(turns)) * (1.0 + noise * (rng.random(count) - 0.5)))
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize("seed", range(8))
 def test_what_is_not_fitted_would_be_no_wall(seed: int, monkeypatch: pytest.MonkeyPatch) -> None:
     rng = np.random.default_rng(seed)

@@ -69,6 +69,7 @@ def assembly(millimetres: Path) -> Assembly:
     return read_cad(millimetres)
 
 
+@pytest.mark.slow
 def test_ids_follow_the_tree(assembly: Assembly) -> None:
     # An instance's own name counts where it says something that the product's does not.
     assert [part.id for part in assembly.parts] == [

@@ -30,6 +30,7 @@ def test_the_sound_machine_has_no_finding() -> None:
     assert check(DATA / "sound.usda") == ()
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize("name", DEFECTS)
 def test_one_defect_has_one_code(name: str) -> None:
     assert ours(checked(name)) == {name.split("_")[0]}

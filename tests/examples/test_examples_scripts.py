@@ -14,6 +14,7 @@ ENGINES = {"newton", "newton_usd_schemas", "physx_usd_schemas", "ovphysx", "warp
 """What the extras of engines bring: without these a script that needs one is not tried."""
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize("script", SCRIPTS)
 def test_it_finds_what_it_stands_on(script: str) -> None:
     """None takes from another what has moved elsewhere; whole drawings are compared by the slow tests."""

@@ -45,6 +45,7 @@ def test_values_are_either_published_or_ours(values: ModuleType) -> None:
     assert_sourced(values, 32)
 
 
+@pytest.mark.slow
 def test_linkages_meet_what_is_published(linkage: ModuleType, values: ModuleType) -> None:
     got = module("mini_excavator", "truth").measured(linkage.solve())
     for value in (*values.PUBLISHED, *values.EXAMPLE):

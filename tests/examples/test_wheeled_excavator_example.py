@@ -34,6 +34,7 @@ def test_values_are_either_published_or_ours(values: ModuleType) -> None:
     assert_sourced(values, 32)
 
 
+@pytest.mark.slow
 def test_the_linkages_meet_what_is_printed(values: ModuleType) -> None:
     known = {value.name: value for value in (*values.PUBLISHED, *values.EXAMPLE)}
     got = module(TYPE, "truth").measured()

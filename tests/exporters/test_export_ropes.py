@@ -68,6 +68,7 @@ class Hung:
         return float(self.data.joint(SLIDE).qpos[0])
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize("falls", [1, 4, 7])
 def test_a_rope_is_as_long_as_its_falls(falls: int, tmp_path: Path) -> None:
     mechanism = _crane(falls)
@@ -83,6 +84,7 @@ def test_a_rope_is_as_long_as_its_falls(falls: int, tmp_path: Path) -> None:
         assert hung.rope == pytest.approx(falls * (rope.length + hung.paid_out), abs=1e-6)
 
 
+@pytest.mark.slow
 def test_a_rope_goes_slack_where_the_hook_is_lifted(tmp_path: Path) -> None:
     """As a body on a slide it holds a hook down that is pushed up; as a rope it does not."""
     mechanism = _crane(4)
@@ -99,6 +101,7 @@ def test_a_rope_goes_slack_where_the_hook_is_lifted(tmp_path: Path) -> None:
     assert hung.height == pytest.approx(places[0], abs=2e-3)
 
 
+@pytest.mark.slow
 def test_a_rope_bears_its_line_s_pull_by_its_falls(tmp_path: Path) -> None:
     """By how far the block hangs below the head: this crane's boom goes down under such a load."""
     hung = Hung(_crane(4), tmp_path)
@@ -110,6 +113,7 @@ def test_a_rope_bears_its_line_s_pull_by_its_falls(tmp_path: Path) -> None:
     assert hung.apart > before + 0.1
 
 
+@pytest.mark.slow
 def test_it_weighs_what_it_did_and_is_held_against_its_machine(tmp_path: Path) -> None:
     mechanism = _crane(4)
     roped, (rope,) = with_ropes(mechanism)

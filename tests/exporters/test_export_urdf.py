@@ -38,6 +38,7 @@ def test_over_the_full_strokes_every_body_is_where_the_kinematics_has_it(urdf: P
     assert count > 5 and worst < BAR and gap < BAR
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize("machine", ["blade", "two arms", "brace", "drawbar"])
 def test_balls_are_three_pivots_each_and_as_exact(machine: str, tmp_path: Path) -> None:
     made = {

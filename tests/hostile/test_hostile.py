@@ -11,6 +11,7 @@ from hostile_cases import CASES, Case
 from kit.builds import console
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize("case", CASES, ids=[f"{c.group}: {c.name}" for c in CASES])
 def test_it_is_one_sentence(case: Case, small: Path, tmp_path: Path) -> None:
     case.make(tmp_path)

@@ -29,6 +29,7 @@ def told(words: str, *, before: str = "", after: str = "") -> subprocess.Complet
     return done
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize(
     ("words", "before", "after", "code", "said"),
     [

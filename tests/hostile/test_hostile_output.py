@@ -166,6 +166,7 @@ def test_the_size_of_files_is_limited(tmp_path: Path, small: Path) -> None:
     assert "ulimit" in done.stderr and list(tmp_path.iterdir()) == []
 
 
+@pytest.mark.slow
 def test_a_mount_point(tmp_path: Path) -> None:
     done = mounted('sys.exit(command("templates", "copy", "wheel_loader", disk) or len(held()) < 8)', "10m", tmp_path)
     assert done.returncode == 0, done.stderr
@@ -227,6 +228,7 @@ def killed_before(step: int, out: Path) -> bool:
         os._exit(1)
 
 
+@pytest.mark.slow
 def test_killed_at_every_step(tmp_path: Path) -> None:
     """Whatever call of the system's a kill comes before, the next who writes there finds the old result or the new."""
     ends, done = set(), False

@@ -60,6 +60,7 @@ def published() -> dict[str, float]:
     return {m.specification: m.model for m in found if m.model is not None}
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize("off", [(0.05, 0.0, 0.04), (-0.08, 0.0, 0.02)])
 def test_a_pin_that_is_guessed_goes_where_the_published_dimensions_put_it(off: tuple[float, float, float]) -> None:
     sheet, guess = published(), TRUE + np.array(off)

@@ -41,6 +41,7 @@ def _held(mechanism: Mechanism, table: Floats, stride: int, off: float = 0.0) ->
     return Comparison(mechanism, stride).compare(table, poses, places)
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize("noise", [0.0, 1e-5])
 def test_between_solved_poses_are_those_that_solving_finds(mechanism: Mechanism, noise: float) -> None:
     table = _run(ClosedChain(mechanism), noise)

@@ -92,12 +92,14 @@ def test_a_blade_goes_no_farther_than_its_dead_point() -> None:
     assert worst_of_blade(wobble, paths) <= BAR
 
 
+@pytest.mark.slow
 def test_a_blade_over_full_strokes_agrees_with_the_independent_solution() -> None:
     drawn, paths = blade_machine(blade()), strokes(200, DRIVEN)
     assert len(ClosedChain(drawn).sweep(paths)) == 200
     assert worst_of_blade(np.zeros(39), paths) <= BAR
 
 
+@pytest.mark.slow
 def test_a_drawbar_over_full_strokes_agrees_with_the_independent_solution() -> None:
     paths = strokes(200, SHIFTED)
     assert len(ClosedChain(drawbar_machine(*drawbar())).sweep(paths)) == 200

@@ -23,6 +23,7 @@ def report(dozer: Template) -> LintReport:
     return library.lint(dozer)
 
 
+@pytest.mark.slow
 def test_every_blade_and_ripper_moves_as_it_is_driven(report: LintReport) -> None:
     seen = set()
     for mobility in report.mobility:

@@ -43,6 +43,7 @@ def test_type_in_any_spelling(name: str, loader: Template) -> None:
     assert library.load_template(name) == loader
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize("equipment_type", library.list_templates())
 def test_library_documents_are_valid_as_they_are_written(equipment_type: str) -> None:
     """Our own files need no folding: an editor with the published schema accepts them, those that are like another

@@ -16,6 +16,7 @@ def template() -> Template:
     return library.load_template("mobile_crane")
 
 
+@pytest.mark.slow
 def test_it_moves_as_it_should(template: Template) -> None:
     report = library.lint(template)
     assert [f for f in report.findings if f.severity != "info"] == []

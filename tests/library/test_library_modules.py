@@ -44,6 +44,7 @@ def digest(equipment_type: str) -> str:
     return hashlib.sha256(text.encode()).hexdigest()[:16]
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize("equipment_type", KEPT)
 def test_a_type_is_what_it_was(equipment_type: str) -> None:
     """As written out in full, before modules. Whoever changes a type on purpose exchanges its digest, having looked at
@@ -51,6 +52,7 @@ def test_a_type_is_what_it_was(equipment_type: str) -> None:
     assert digest(equipment_type) == KEPT[equipment_type]
 
 
+@pytest.mark.slow
 def test_the_types_are_mostly_lists_of_modules() -> None:
     """Of their bodies and pins seven in ten, and of their joints eight in ten, stand in no document of theirs."""
     own = {"hierarchy": 0, "joints": 0}
@@ -69,6 +71,7 @@ def test_the_types_are_mostly_lists_of_modules() -> None:
     assert own["joints"] < 0.2 * whole["joints"]
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize("name", module_files())
 def test_every_module_is_valid_and_says_what_it_is(name: str) -> None:
     written = read_json(module_files()[name])

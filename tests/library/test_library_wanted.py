@@ -50,6 +50,7 @@ def template(request: pytest.FixtureRequest) -> Template:
     return library.load_template(request.param, sheet_only=True)
 
 
+@pytest.mark.slow
 def test_at_least_25_names_of_every_kind(template: Template) -> None:
     assert len(template.wanted) >= 25
     dimensions = {w.dimension for w in template.wanted}
@@ -176,6 +177,7 @@ def test_a_usual_length_is_from_the_shorter_to_the_longer(tmp_path: Path) -> Non
         library.load_template(tmp_path, sheet_only=True)
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize("equipment_type", TYPES)
 def test_a_copy_needs_nothing_of_the_library(equipment_type: str, tmp_path: Path) -> None:
     folder = library.copy_template(equipment_type, tmp_path / equipment_type)

@@ -15,6 +15,7 @@ ARMS = {"blade": "push_arms", "tilt": "dual", "ripper": "none"}
 YOKES = ("push_arm_yoke", "tag_link")
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize("dual", [True, False])
 def test_a_blade_tilts_on_push_arms_without_their_yokes_and_tag_link(dual: bool) -> None:
     machine = dozer(5, "push_arms", dual=dual, ripper=False)
@@ -32,6 +33,7 @@ def test_a_blade_tilts_on_push_arms_without_their_yokes_and_tag_link(dual: bool)
         assert abs(np.dot(*crossed)) < 1e-6
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize(
     ("absent", "joints"),
     [

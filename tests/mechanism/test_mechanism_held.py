@@ -76,6 +76,7 @@ def jib() -> Aligned:
     return _aligned(crane(22, sections=3, twin=False, hook=True, jib=True), {"jib": "pinned"})
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize(
     "places", [("46", "drawn", "drawn"), ("92", "46", "46"), ("100", "100", "92"), ("100", "100", "100")]
 )
@@ -112,6 +113,7 @@ def test_boom_lengths_and_angles_are_measured_as_it_is_pinned(pinned: Aligned, d
     assert short["Boom Angle Maximum"] == pytest.approx(long["Boom Angle Maximum"], abs=1e-9)
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize("count", [5, 6])
 def test_booms_of_five_and_six_sections_are_pinned(count: int) -> None:
     choices = {"telescoping": "pinned", "pinned_sections": {5: "five", 6: "six"}[count]}
@@ -136,6 +138,7 @@ def test_what_nothing_says_is_asked_for(pinned: Aligned) -> None:
     assert found.value.where == "second_section_joint" and "--set" in str(found.value.hint)
 
 
+@pytest.mark.slow
 def test_in_mujoco_a_pinned_boom_is_one(pinned: Aligned, tmp_path: Path) -> None:
     built = _held(pinned, dict.fromkeys(SECTIONS, "92"), _sheet())
     path = export_mjcf(built, Geometry(), tmp_path, base="fixed")
@@ -151,6 +154,7 @@ def test_in_mujoco_a_pinned_boom_is_one(pinned: Aligned, tmp_path: Path) -> None
     assert apart == pytest.approx(drawn_apart, abs=1e-9)
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize("offset", [0, 20, 40])
 def test_a_jib_is_pinned_at_an_offset(jib: Aligned, offset: int) -> None:
     straight = _held(jib)
@@ -178,6 +182,7 @@ def test_a_jib_is_pinned_at_an_offset(jib: Aligned, offset: int) -> None:
     assert np.linalg.norm((tip - boom)[:3]) == pytest.approx(float(np.linalg.norm(arm)), abs=0.01)
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize(
     ("seed", "choices"),
     [(12, {"telescoping": "pinned"}), pytest.param(24, {"jib": "pinned"}, marks=pytest.mark.slow)],
@@ -193,6 +198,7 @@ def hooked() -> Aligned:
     return _aligned(machine, {"jib": "pinned", "jib_hook": "hook"})
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize("offset", ["drawn", "20", "40"])
 def test_a_jib_has_a_hook_of_its_own_that_hangs_straight_down(hooked: Aligned, offset: str) -> None:
     drawn, built = _held(hooked), _held(hooked, {"jib_offset": offset})
@@ -211,6 +217,7 @@ def test_a_jib_has_a_hook_of_its_own_that_hangs_straight_down(hooked: Aligned, o
         assert ball.anchor[2] < drawn.joint("jib2jib_hoist_rope_joint").anchor[2] - 0.1
 
 
+@pytest.mark.slow
 def test_nameless_a_jib_s_hook_is_not_the_boom_s() -> None:
     machine = crane(27, sections=4, hook=True, jib="hook")
     found_whole(machine, "mobile_crane", 27, triangles=False, choices={"jib": "pinned", "jib_hook": "hook"})

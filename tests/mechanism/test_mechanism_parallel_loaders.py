@@ -87,6 +87,7 @@ class Circles:
         return hinge, math.atan2(turned.imag, turned.real)
 
 
+@pytest.mark.slow
 def test_it_moves_two_ways_and_goes_where_circles_say(built: tuple[Mechanism, int]) -> None:
     mechanism, cylinders = built
     assert mechanism.mobility is not None and mechanism.mobility.computed == mechanism.mobility.expected
@@ -138,6 +139,7 @@ def test_a_dump_is_timed_the_way_the_cylinder_goes() -> None:
         assert timed("backhoe_loader", "loader_linkage", linkage, "loader_bucket", "Loader Dump Time") == {way}
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize(
     ("seed", "cylinders", "shared"),
     [(61, 1, True), (62, 2, False), pytest.param(63, 1, False, marks=pytest.mark.slow),
@@ -168,6 +170,7 @@ def test_its_loops_hold_in_an_engine(tmp_path: Path) -> None:
     assert all(a.reached_high - a.reached_low >= 0.9 * a.stroke for a in result.actuators)
 
 
+@pytest.mark.slow
 def test_links_that_a_common_machine_leaves_over_are_looked_at() -> None:
     """Its rocker taken for the tilt cylinder's barrel, its links left over: as one with its cylinder from boom to
     bucket every joint was found, and thirteen parts were silently another body's."""
@@ -194,6 +197,7 @@ def test_half_of_what_makes_a_machine_special_does_not_show_it() -> None:
     assert not shown(*wheels, "bucket_piston_rod_r2tipping_link_joint", **choices(2))
 
 
+@pytest.mark.slow
 def test_a_boom_on_a_bracket_without_pins_is_still_one() -> None:
     """One of the six joints that only it has is not found, and 24 of 25 of all: read as a common machine 85 parts of
     206 were astray."""

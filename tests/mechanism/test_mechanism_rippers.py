@@ -56,6 +56,7 @@ class Circles:
         return beam + (end - beam) / (self.end - self.beam) * (point - self.beam)
 
 
+@pytest.mark.slow
 def test_it_moves_two_ways(built: Mechanism) -> None:
     fixed = without(
         dozer(621, "pat", dual=False, high=False, ripper=False), "dozer", (), choices={**CHOICES, "ripper": "none"}
@@ -88,6 +89,7 @@ def test_penetration_and_clearance_are_those_of_its_tips(built: Mechanism) -> No
     assert min(heights) < 0.0 < max(heights)
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize(("seed", "blade"), [(622, "push_arms"), pytest.param(621, "pat", marks=pytest.mark.slow)])
 def test_nameless_every_part_is_in_its_body(seed: int, blade: str) -> None:
     """Its link was an arm, and a machine's arms are at its front: the machine of seed 622 was taken for turned round,
@@ -102,6 +104,7 @@ def fixed() -> Mechanism:
     return without(dozer(621, "pat", dual=False, high=False, ripper="fixed_parallel"), "dozer", (), choices=choices)
 
 
+@pytest.mark.slow
 def test_a_fixed_one_moves_one_way_and_its_shanks_keep_their_angle(fixed: Mechanism) -> None:
     """Its pins are no exact parallelogram: the upper link's circle about its pivot meets that of the beam's pin."""
     assert fixed.mobility is not None and fixed.mobility.computed == fixed.mobility.expected

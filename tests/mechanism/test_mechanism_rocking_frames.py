@@ -54,6 +54,7 @@ def _turned(along: float, up: float, turn: float) -> tuple[float, float]:
     return along * c - up * s, along * s + up * c
 
 
+@pytest.mark.slow
 def test_it_rocks_and_nothing_drives_it(built: Mechanism) -> None:
     fast = without(rocking_dozer(731, "pat", ripper=""), "dozer", ("roller_frame", "equalizer"),
                    choices={**CHOICES, "track_frames": "fixed"})  # fmt: skip
@@ -101,6 +102,7 @@ def test_a_front_idlers_travel_is_measured(built: Mechanism) -> None:
     assert found == pytest.approx(abs(heights[1] - heights[0]), abs=1e-9)
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize(
     ("seed", "blade", "high", "triangles"),
     [
@@ -116,6 +118,7 @@ def test_nameless_every_part_is_in_its_body(seed: int, blade: str, high: bool, t
     assert found.choices["track_frames"] == "oscillating" and found.choices["blade"] == blade
 
 
+@pytest.mark.slow
 def test_a_pivot_that_does_not_reach_its_limit_is_told_in_degrees() -> None:
     """A bar's 4° were 70 mm."""
     machine = rocking_dozer(733, "push_arms", high=False, ripper="")
@@ -124,6 +127,7 @@ def test_a_pivot_that_does_not_reach_its_limit_is_told_in_degrees() -> None:
     assert f"{BAR} -4°" in words
 
 
+@pytest.mark.slow
 def test_a_high_sprocket_drives_its_shoes_and_the_rear_idler_rolls_on_the_track_frame() -> None:
     """The rear idler had the sprocket's role: it hung on the main frame, and drove."""
     machine = rocking_dozer(734, "pat", high=True, ripper="")

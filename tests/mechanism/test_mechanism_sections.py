@@ -13,6 +13,7 @@ SLIDES = ("outer_mast2inner_mast_joint", "inner_mast2carriage_joint")
 RAMS = ("lift_cylinder", "lift_piston", "free_lift")
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize("seed", [2, 5, 9])
 def test_a_mast_rises_until_a_quarter_of_a_section_is_left_in_the_other(seed: int) -> None:
     machine = lift_truck(seed, "simplex")

@@ -64,6 +64,7 @@ def test_a_mast_that_is_drawn_solid_does_not_weigh_more_than_its_truck() -> None
     assert drawn_so["chassis"] > 5.0 * drawn_so["outer_mast"]
 
 
+@pytest.mark.slow
 def test_the_library_s_shares_are_whole_machines() -> None:
     for kind in filter(lambda name: not is_sheet_only(name), list_templates()):
         shares = load_template(kind).shares

@@ -56,6 +56,7 @@ def disagreeing(found: Alignment) -> set[str]:
     return {p.part for p in found.parts if p.suggestion is not None and p.suggestion.body != p.body}
 
 
+@pytest.mark.slow
 @undrawn
 @pytest.mark.parametrize("played", [lying, agreeing, truthful, nothing])
 def test_nothing_but_suggestions_and_findings_comes_of_it(doubted: Doubted, played: Callable[[Doubted], Model]) -> None:

@@ -33,6 +33,7 @@ def said(*words: str | Path, cwd: Path) -> tuple[int, Any]:
     return done.returncode, json.loads(done.stdout)
 
 
+@pytest.mark.slow
 def test_nobody_is_asked_without_the_option(
     doubted: Doubted, cad: Path, tmp_path: Path, monkeypatch: pytest.MonkeyPatch
 ) -> None:
@@ -56,6 +57,7 @@ def test_a_model_that_is_not_configured_is_said_before_anything_slow(
     assert code == 2 and "cannot be opened" in document["error"]["message"]
 
 
+@pytest.mark.slow
 def test_align_asks_tells_and_replays(
     doubted: Doubted, cad: Path, tmp_path: Path, monkeypatch: pytest.MonkeyPatch
 ) -> None:

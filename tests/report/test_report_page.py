@@ -33,6 +33,7 @@ def test_counted_rows_are_one() -> None:
     assert in_rows(names) == {"frame": [0], "shoe_l": [1, 2, 4, 5], "arm": [3], "wheel_1": [6], "wheel_2": [7]}
 
 
+@pytest.mark.slow
 @settings(deadline=None)
 @given(st.lists(st.from_regex(r"[a-c](_[0-9]{1,2})?", fullmatch=True), unique=True))
 def test_every_name_is_in_one_row(names: list[str]) -> None:

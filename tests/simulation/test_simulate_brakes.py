@@ -126,6 +126,7 @@ def crawling(tmp_path_factory: pytest.TempPathFactory) -> tuple[Mechanism, Path]
     return built, folder / "made" / "crawler.usda"
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize("engine", [pytest.param("newton", marks=pytest.mark.slow), "physx"])
 def test_tracks_with_brakes_set_stay_on_the_slope(crawling: tuple[Mechanism, Path], engine: str) -> None:
     need(engine)

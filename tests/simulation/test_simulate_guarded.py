@@ -72,6 +72,7 @@ def write(folder: Path, deed: str) -> None:
     (folder / "bad_engine.py").write_text(ENGINE.format(deed=deed))
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize(
     ("deed", "words"),
     [

@@ -48,6 +48,7 @@ def area(bore: float, rod: float = 0.0) -> float:
     return math.pi / 4 * (bore**2 - rod**2)
 
 
+@pytest.mark.slow
 def test_each_ram_pushes_the_way_its_rod_comes_out(built: Built) -> None:
     assert {j.name: j.type for j in built.mechanism.joints} == dict.fromkeys(SLIDES, "prismatic")
     for slide, way in zip(SLIDES, (rams.UP, rams.LEFT, rams.DOWN), strict=True):
@@ -98,6 +99,7 @@ def test_strokes_are_told_without_pivots(built: Built) -> None:
     assert ClosedChain(built.mechanism).displacement(state, "foot")[2, 3] == pytest.approx(-0.3, abs=1e-6)
 
 
+@pytest.mark.slow
 def test_rams_that_are_not_drawn_stand_closed(tmp_path: Path) -> None:
     """The rams of the lift are left out of the CAD model: the slide goes up from where it stands, by the stroke that is
     set; both rams count."""

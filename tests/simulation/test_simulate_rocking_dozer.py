@@ -52,6 +52,7 @@ def _gap(mechanism: Mechanism, name: str, center: np.ndarray, blocks: tuple[Bloc
     return float(center[2]) - mechanism.body(name).shapes[0].radius - ground
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize("engine", EVERY)
 def test_both_tracks_bear_on_a_block_and_the_hull_tilts_by_half(engine: str, tmp_path: Path) -> None:
     """Measured: the hull 1.60°, between frames at 3.31 and -0.11°, in every engine within 0.03°."""

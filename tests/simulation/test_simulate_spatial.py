@@ -50,6 +50,7 @@ def test_pins_hold_over_the_strokes_of_all_cylinders(written: tuple[Mechanism, P
     assert all(a.reached_high - a.reached_low > 0.9 * a.stroke for a in result.actuators)
 
 
+@pytest.mark.slow
 def test_balls_are_spherical_joints_and_cut_ones_are_left_out_of_the_tree(written: tuple[Mechanism, Path]) -> None:
     mechanism, file = written
     stage = Usd.Stage.Open(str(file))

@@ -43,6 +43,7 @@ def statements(wanted: tuple[Wanted, ...], language: str, label: int) -> list[St
     ]  # fmt: skip
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize("language", LANGUAGES)
 @pytest.mark.parametrize("equipment_type", list_templates())
 def test_first_labels(equipment_type: str, language: str) -> None:

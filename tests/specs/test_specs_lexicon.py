@@ -64,6 +64,7 @@ def misread(equipment_type: str, own: Iterable[Row], *, strict: bool) -> list[tu
     return wrong
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize(("language", "equipment_type"), [(one, kind) for one in LANGUAGES for kind in rows(one)])
 def test_labels_are_taken_for_what_they_mean(language: str, equipment_type: str) -> None:
     assert misread(equipment_type, rows(language)[equipment_type], strict=language in STRICT) == []

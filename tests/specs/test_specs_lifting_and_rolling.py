@@ -62,6 +62,7 @@ ROLLER = {
 }
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize(
     ("name", "language"), [("telehandler", k) for k in TELEHANDLER] + [("roller", k) for k in ROLLER]
 )

@@ -97,6 +97,7 @@ def stand_in(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> Callable[[list[
 SCALE = 300 / 72
 
 
+@pytest.mark.slow
 def test_a_picture_is_read_for_review_with_its_box(tmp_path: Path, stand_in: Callable[..., None]) -> None:
     dirt = ["5\t1\t9\t1\t1\t1\t10\t10\t50\t50\t12.0\twu.", "5\t1\t9\t1\t1\t2\t0\t0\t0\t0\t-1\t "]
     stand_in([*words(ROWS, SCALE), *dirt])
@@ -122,6 +123,7 @@ def assert_read(one: Specification, value: float) -> None:
     assert 295 < x0 < x1 < 480 and 120 < top < bottom < 190
 
 
+@pytest.mark.slow
 def test_what_a_page_with_text_says_needs_no_picture(tmp_path: Path, stand_in: Callable[..., None]) -> None:
     stand_in(words([("Wheelbase", "3950 mm"), ("Tread", "2140 mm")], SCALE))
     sheet = pictured(tmp_path / "a.pdf", [("Wheelbase", "3950 mm"), ("Tread", "2140 mm")], text=ROWS)
@@ -149,6 +151,7 @@ def test_a_program_that_fails_leaves_the_page_unreadable_and_says_why(
     assert finding.code == "SPC001" and "Text recognition failed" in finding.message
 
 
+@pytest.mark.slow
 def test_a_picture_without_words_is_unreadable(tmp_path: Path, stand_in: Callable[..., None]) -> None:
     stand_in([])
     found = extract(ASKED, [pictured(tmp_path / "scan.pdf", ROWS)])

@@ -64,6 +64,7 @@ def test_the_factors_of_a_product_are_one_word() -> None:
     assert texts("13.00x24", "16PR") == ["13.00x24", "16PR"] and texts("(m", "m)") == ["(mm)"]
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize("points", [1.0, 8.0])
 def test_a_page_whose_points_are_pixels_is_read_as_one_of_paper(
     tmp_path: Path, monkeypatch: pytest.MonkeyPatch, points: float

@@ -141,6 +141,7 @@ def test_units_as_brochures_spell_them(printed: str, unit: str) -> None:
     assert is_unit(printed) == unit
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize(
     ("config", "status"), [("MW110", "ok"), ("MW130", "review"), ("", "ok"), ("standard boom", "ok")]
 )

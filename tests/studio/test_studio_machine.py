@@ -58,6 +58,7 @@ def test_a_variant_and_what_is_not_drawn(open_studio: Callable[..., Session]) ->
     assert {"*_pin=", "lift_cylinders=single", "bucket=absent"} <= answers
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize(
     ("name", "text"), [("", "x"), ("forward", "ahead"), ("wing", "absent"), ("bucket", "gone"), ("forward", "x" * 300)]
 )

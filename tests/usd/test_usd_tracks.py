@@ -44,6 +44,7 @@ def machines(tmp_path_factory: pytest.TempPathFactory) -> dict[str, tuple[Mechan
     return made
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize("tracks", ["belt", "shoes"])
 def test_comes_back(machines: dict[str, tuple[Mechanism, Path]], tracks: str) -> None:
     built, folder = machines[tracks]
