@@ -11,15 +11,20 @@ import pytest
 import trimesh
 
 from yellowiron.alignment import align
+from yellowiron.alignment.assignment.cp_sat import Solution
+from yellowiron.alignment.assignment.root_fallback import with_root
+from yellowiron.alignment.features.solids import solids_of
 from yellowiron.alignment.fusion import evidence, reading
 from yellowiron.alignment.fusion.stance import Stance, stance_of
 from yellowiron.alignment.labelling.suspects import Vacancies
+from yellowiron.alignment.structure.clusters import Cluster, Hinge, Structure
 from yellowiron.cad.mesh.assembly import Occurrence, assemble
 from yellowiron.library import load_template
 from yellowiron.model.alignment import Alignment, PartAssignment
 from yellowiron.model.assembly import Assembly
 from yellowiron.model.geometry import Mesh
 from yellowiron.model.specification import Specifications
+from yellowiron.model.template import choose
 
 
 def block(size: tuple[float, float, float], at: tuple[float, float, float]) -> trimesh.Trimesh:
@@ -99,3 +104,26 @@ def test_what_may_be_the_missing_root_is_no_sure_part_of_its_neighbour(monkeypat
     assert base.reason == "lies flat against superstructure; but it may be carrier, which is not found"
     assert base.runner_up == "carrier"
     assert base.part in found.to_review
+
+
+@pytest.mark.parametrize(("crumb", "held", "root"), [(0.05, False, 2), (0.05, True, 0), (1.0, False, 0)])
+def test_a_crumb_that_no_joint_holds_is_no_root(crumb: float, held: bool, root: int) -> None:
+    """A shell of a boom's mesh had become the undercarriage of a public excavator, whose tracks went with its house."""
+    drawn = [
+        block((crumb, crumb, crumb), (3.0, 0.0, 3.0)),  # in the boom
+        block((4.0, 2.5, 2.0), (0.0, 0.0, 2.2)),  # left over of the house
+        block((4.0, 0.6, 1.0), (0.0, 1.2, 0.5)), block((1.0, 0.6, 1.0), (0.0, -1.2, 0.5)),  # on the ground
+        block((5.0, 0.5, 0.5), (3.0, 0.0, 3.0)),
+    ]  # fmt: skip
+    meshes = [Mesh(np.asarray(m.vertices), np.asarray(m.faces, dtype=np.int32)) for m in drawn]
+    placed = [Occurrence(f"part {k}", (), mesh, np.eye(4)) for k, mesh in enumerate(meshes)]
+    solids = solids_of(assemble(placed, name="machine", format="test", unit=1.0, path=""))
+    template = choose(load_template("excavator"), {"boom_cylinders": "single", "boom_type": "mono", "blade": "none"})
+    number = {s.part.name: s.index for s in solids}
+    structure = Structure(tuple(Cluster(frozenset({number[f"part {k}"]})) for k in range(len(solids))))
+    hinges = {"undercarriage2upperstructure_joint": 0} if held else {}
+    structure = replace(structure, hinges=(Hinge(0, 1, 0, ()),) if held else ())
+    told = Solution({0: template.root, 4: "boom"}, hinges, {}, 0, 0, True)
+    found = with_root(told, structure, solids, template, np.array([0.0, 0.0, 1.0]))
+    assert [c for c, body in found.body_of.items() if body == template.root] == [root]
+    assert found.body_of[4] == "boom"

@@ -433,7 +433,8 @@ def _framed(
             frame = replace(frame, against=against or frame.against)
     if frame is not None and not frame.told and ends_untold(template, solution, answer.unary):
         frame = replace(frame, doubts=(*frame.doubts, "front and rear are built alike, and no name tells them apart"))
-    return replace(answer, solution=with_root(solution, structure, solids, template)), frame
+    up = frame.matrix[2, :3] if frame is not None else None
+    return replace(answer, solution=with_root(solution, structure, solids, template, up)), frame
 
 
 def _fused(
