@@ -109,7 +109,7 @@ def stance_of(solids: Sequence[Solid], size: float, hinges: Sequence[Floats] = (
     """How the machine stands. `hinges`: directions of axes that were found, of which most lie across the machine;
     `size`: the machine's diagonal, metres; `facing`: what a person said of it."""
     points = surface_points(solids)
-    left, likeness = _across(points, size, _commonest(hinges))
+    left, likeness = across_of(points, size, _commonest(hinges))
     up = _up(points, left, size)
     forward = np.cross(left, up)
     reach = points @ forward
@@ -148,7 +148,11 @@ def on_wheels(stance: Stance, wheels: Sequence[Wheel]) -> Stance:
 
 def surface_points(solids: Sequence[Solid], count: int = POINTS) -> Floats:
     """(n, 3) points all over the surface, more where there is more of it; the same every time."""
-    corners = np.concatenate([s.points[s.shape.mesh.triangles] for s in solids])
+    return spread_over(np.concatenate([s.points[s.shape.mesh.triangles] for s in solids]), count)
+
+
+def spread_over(corners: Floats, count: int = POINTS) -> Floats:
+    """(n, 3) points all over triangles with these corners (m, 3, 3)."""
     double = np.linalg.norm(np.cross(corners[:, 1] - corners[:, 0], corners[:, 2] - corners[:, 0]), axis=1)
     total = np.cumsum(double)
     rng = np.random.default_rng(0)
@@ -171,7 +175,7 @@ def _commonest(hinges: Sequence[Floats]) -> list[Floats]:
     return [unit((turned * np.sign(turned @ every[first])[:, None]).sum(axis=0))]
 
 
-def _across(points: Floats, size: float, hinges: Sequence[Floats]) -> tuple[Floats, float]:
+def across_of(points: Floats, size: float, hinges: Sequence[Floats]) -> tuple[Floats, float]:
     """The direction along which the surface is most like its mirror image; that of the hinges before others: half a
     machine is like nothing."""
     principal = np.linalg.svd(points - points.mean(axis=0), full_matrices=False)[2]
