@@ -12,9 +12,11 @@ from collections.abc import Iterator, Sequence
 from dataclasses import replace
 
 import numpy as np
+from numpy.typing import NDArray
+from scipy.spatial import cKDTree
 
 from yellowiron.alignment.facing import quarters
-from yellowiron.alignment.fusion.stance import across_of, spread_over
+from yellowiron.alignment.fusion.stance import UNLIKE, mirrored, spread_over
 from yellowiron.model.alignment import Alignment
 from yellowiron.model.assembly import Assembly
 from yellowiron.model.geometry import Floats
@@ -67,13 +69,8 @@ def square_to(assembly: Assembly) -> Floats | None:
         return None
     best = _drawn_to(best, normals, areas)
     rotation = np.asarray(max((q @ best for q in quarters()), key=lambda turn: round(float(np.trace(turn)), 9)))
-    kept = np.eye(3)[np.diag(rotation) > KEPT]
-    if len(kept):
-        points = spread_over(corners)
-        left, _ = across_of(points, float(np.linalg.norm(np.ptp(points, axis=0))), ())
-        if (np.abs(kept @ left) > KEPT).any():
-            return None
-    return rotation
+    kept = np.diag(rotation) > KEPT
+    return None if kept.any() and kept[_most_even(spread_over(corners), rotation)] else rotation
 
 
 def turned(assembly: Assembly, rotation: Floats) -> Assembly:
@@ -101,26 +98,33 @@ def turned_back(found: Alignment, rotation: Floats) -> Alignment:
     return replace(found, frame=found.frame @ whole, axes=axes)
 
 
+def _most_even(points: Floats, axes: Floats) -> int:
+    """The axis of a frame (3, 3) along which the surface is most like its mirror image: that across the machine."""
+    tree, limit = cKDTree(points), UNLIKE * float(np.linalg.norm(np.ptp(points @ axes.T, axis=0)))
+    off = []
+    for axis, along in zip(axes, (points @ axes.T).T, strict=True):
+        middles = (float(np.median(along)), 0.5 * float(along.min() + along.max()))
+        off.append(min(mirrored(points, tree, axis, middle, limit, rounds=1)[1] for middle in middles))
+    return int(np.argmin(off))
+
+
 def _looked_in(normals: Floats, areas: Floats) -> list[Floats]:
     """The directions, either way, that most of the surface looks in: (3,) each."""
     found: list[Floats] = []
     grid, left = _hemisphere(), areas.copy()
     nearest = np.abs(normals @ grid.T).argmax(axis=1)
     for _ in range(WAYS):
-        votes = np.bincount(nearest, left, len(grid))
-        way = grid[int(votes.argmax())]
-        for _ in range(2):
-            way = _mean(way, normals, left)
+        cell = int(np.bincount(nearest, left, len(grid)).argmax())
+        way = _mean(grid[cell], normals, left, nearest == cell)
+        way = _mean(way, normals, left, np.abs(normals @ way) > ALONG)
         found.append(way)
         left = np.where(np.abs(normals @ way) > ALONG, 0.0, left)
     return found
 
 
-def _mean(way: Floats, normals: Floats, areas: Floats) -> Floats:
-    """The direction in which the faces look, as a whole, that look nearly along `way`."""
-    along = normals @ way
-    alike = np.abs(along) > ALONG
-    total = (np.sign(along[alike]) * areas[alike]) @ normals[alike]
+def _mean(way: Floats, normals: Floats, areas: Floats, alike: NDArray[np.bool_]) -> Floats:
+    """The direction in which those faces look, as a whole, that are `alike`, turned to look along `way`."""
+    total = (np.sign(normals[alike] @ way) * areas[alike]) @ normals[alike]
     return unit(total) if np.linalg.norm(total) > 0.0 else way
 
 

@@ -109,7 +109,7 @@ def stance_of(solids: Sequence[Solid], size: float, hinges: Sequence[Floats] = (
     """How the machine stands. `hinges`: directions of axes that were found, of which most lie across the machine;
     `size`: the machine's diagonal, metres; `facing`: what a person said of it."""
     points = surface_points(solids)
-    left, likeness = across_of(points, size, _commonest(hinges))
+    left, likeness = _across(points, size, _commonest(hinges))
     up = _up(points, left, size)
     forward = np.cross(left, up)
     reach = points @ forward
@@ -175,7 +175,7 @@ def _commonest(hinges: Sequence[Floats]) -> list[Floats]:
     return [unit((turned * np.sign(turned @ every[first])[:, None]).sum(axis=0))]
 
 
-def across_of(points: Floats, size: float, hinges: Sequence[Floats]) -> tuple[Floats, float]:
+def _across(points: Floats, size: float, hinges: Sequence[Floats]) -> tuple[Floats, float]:
     """The direction along which the surface is most like its mirror image; that of the hinges before others: half a
     machine is like nothing."""
     principal = np.linalg.svd(points - points.mean(axis=0), full_matrices=False)[2]
@@ -185,22 +185,22 @@ def across_of(points: Floats, size: float, hinges: Sequence[Floats]) -> tuple[Fl
         along = points @ start
         for middle in (np.median(along), 0.5 * (along.min() + along.max()), along.mean()):
             own = number < 3 + len(hinges)
-            direction, off = _mirrored(points, tree, start, middle, limit, rounds=1 if own else ROUNDS)
+            direction, off = mirrored(points, tree, start, middle, limit, rounds=1 if own else ROUNDS)
             off *= (1.0 if number < 3 else HINGED) if own else USUAL
             if off < best[0] - 1e-12:
                 best = (off, direction)
     return unit(best[1]), 1.0 - best[0] / limit
 
 
-def _mirrored(
+def mirrored(
     points: Floats, tree: cKDTree, direction: Floats, middle: float, limit: float, *, rounds: int
 ) -> tuple[Floats, float]:
     """The direction, turned in further `rounds` so that the mirrored surface lies on the surface, and how far off it
     is then, metres: the mean of what has a twin within `limit`, and of `limit` for what has none. The boom or the cab
     may be to one side."""
     for _ in range(rounds):
-        mirrored = points - 2.0 * (points @ direction - middle)[:, None] * direction
-        gaps, nearest = tree.query(mirrored, distance_upper_bound=limit)  # infinite beyond
+        image = points - 2.0 * (points @ direction - middle)[:, None] * direction
+        gaps, nearest = tree.query(image, distance_upper_bound=limit)  # infinite beyond
         off = float(np.mean(np.minimum(gaps, limit)))
         if rounds > 1:
             good = gaps < limit
