@@ -14,8 +14,8 @@ of these seconds a machine is given up, which counts as all wrong and flagged. S
 Real models are those of `benchmarks/strangers/*.json` and of `../shared/data`; their CAD is looked for in `--models`
 (default: the environment's YELLOWIRON_STRANGERS; several folders with ':' between them). What is not there is said. Of
 models labelled `held_back` nothing is done unless `--held-back` is given. `--shake`: each as it is not, but the same
-machine in another file (`strangers_shaken.py`); what moves is not looked at then. `--sizes`: what large models take; they
-have 5000 parts, 470 000 triangles in 85 parts, 267 parts with hoses.
+machine in another file (`strangers_shaken.py`); what moves is not looked at then. `--sizes`: what large models take:
+5000 parts, 470 000 triangles in 85 parts, 267 parts with hoses.
 
 The last column of real models says which actuators move in MuJoCo, each alone over a quarter of its stroke, the base
 fixed, and whether the loops hold (`strangers_driven.py`).
