@@ -23,6 +23,7 @@ from yellowiron.model.assembly import Part
 from yellowiron.model.geometry import Mesh
 
 ASKEW_DEG = 37.0
+SCALE = 0.37
 LOOSE, LOOSE_DEG = 0.001, 0.25
 """By how much each part is moved, of the machine's height, and turned."""
 SMALL = 0.001
@@ -63,6 +64,34 @@ def _turned(scene: Scene, up: Array) -> Scene:
     )
     truth = replace(scene.truth, points=scene.truth.points @ rotation.T + away)
     return replace(scene, assembly=assembly, truth=truth, joints=joints)
+
+
+def _scaled(scene: Scene, up: Array) -> Scene:
+    """In a unit of nobody's."""
+    sized = [
+        replace(piece, mesh=replace(piece.mesh, points=SCALE * piece.mesh.points, normals=None))
+        for piece in _pieces(scene)
+    ]
+    joints = tuple(
+        replace(
+            j, point=tuple(SCALE * np.array(j.point)), tolerance=None if j.tolerance is None else SCALE * j.tolerance
+        )
+        for j in scene.joints
+    )
+    nodes = tuple(replace(n, transform=_sized(n.transform)) for n in scene.assembly.nodes)
+    assembly = replace(scene.assembly, nodes=nodes)
+    return _drawn(replace(scene, assembly=assembly, joints=joints, height=SCALE * scene.height), sized)
+
+
+def _sized(transform: Array) -> Array:
+    found = transform.copy()
+    found[:3, 3] *= SCALE
+    return found
+
+
+def _reversed(scene: Scene, up: Array) -> Scene:
+    """Its parts the other way round in the file."""
+    return _drawn(scene, list(_pieces(scene))[::-1])
 
 
 def _loose(scene: Scene, up: Array) -> Scene:
@@ -112,7 +141,8 @@ def _shells(scene: Scene, up: Array) -> Scene:
 
 
 SHAKES: dict[str, Callable[[Scene, Array], Scene]] = {
-    "turned": _turned, "loose": _loose, "bare": _bare, "thinned": _thinned, "one mesh": _one_mesh, "shells": _shells,
+    "turned": _turned, "scaled": _scaled, "reversed": _reversed, "loose": _loose, "bare": _bare, "thinned": _thinned,
+    "one mesh": _one_mesh, "shells": _shells,
 }  # fmt: skip
 
 
