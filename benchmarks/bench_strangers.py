@@ -2,7 +2,8 @@
 
     python benchmarks/bench_strangers.py [--first SEED] [--count N] [--kinds loader,excavator] [--damages half,opened]
         [--names with,without] [--turn upright|any] [--jobs N] [--limit S] [--out FILE.json] [--words]
-    python benchmarks/bench_strangers.py --real [--models DIR] [--labels DIR] [--only NAME,…] [--held-back] …
+    python benchmarks/bench_strangers.py --real [--models DIR] [--labels DIR] [--only NAME,…] [--held-back]
+        [--shake turned,loose,…] …
     python benchmarks/bench_strangers.py --sizes
 
 From the repository's root. `tests/kit/machines/damages.py` has the damages, `tests/kit/scoring.py` the rules by which a
@@ -12,7 +13,8 @@ of these seconds a machine is given up, which counts as all wrong and flagged. S
 
 Real models are those of `benchmarks/strangers/*.json` and of `../shared/data`; their CAD is looked for in `--models`
 (default: the environment's YELLOWIRON_STRANGERS; several folders with ':' between them). What is not there is said. Of
-models labelled `held_back` nothing is done unless `--held-back` is given. `--sizes`: what large models take; they have
+models labelled `held_back` nothing is done unless `--held-back` is given. `--shake`: each as it is not, but the same
+machine in another file (`strangers_shaken.py`); what moves is not looked at then. `--sizes`: what large models take:
 5000 parts, 470 000 triangles in 85 parts, 267 parts with hoses.
 
 The last column of real models says which actuators move in MuJoCo, each alone over a quarter of its stroke, the base
@@ -22,6 +24,7 @@ fixed, and whether the loops hold (`strangers_driven.py`).
 from __future__ import annotations
 
 import argparse
+import itertools
 import json
 import os
 import signal
@@ -46,7 +49,8 @@ from kit.machines.synthetic import Machine  # noqa: E402
 from kit.scene import Scene, read, scene, true_joints  # noqa: E402
 from kit.scoring import Score, score  # noqa: E402
 from strangers_driven import Driven, driven  # noqa: E402
-from strangers_models import LABELS, models, scene_of  # noqa: E402
+from strangers_models import LABELS, models, scene_of, upright_of  # noqa: E402
+from strangers_shaken import SHAKES, shaken  # noqa: E402
 from yellowiron.library import load_template  # noqa: E402
 from yellowiron.mechanism import build_mechanism  # noqa: E402
 from yellowiron.model.errors import YellowironError  # noqa: E402
@@ -112,14 +116,15 @@ def drawn_case(kind: str, seed: str, damage: str, names: str, turn: str, limit: 
     return {"kind": kind, "seed": int(seed), "damage": damage, "names": names, **solved(given, int(limit))}
 
 
-def real_case(name: str, folders: str, labels: str, names: str, limit: str) -> Result:
-    """One real model."""
+def real_case(name: str, folders: str, labels: str, names: str, limit: str, shake: str = "") -> Result:
+    """One real model, as it is or shaken."""
     (model,) = (m for m in models([Path(f) for f in folders.split(":") if f], Path(labels)) if m.name == name)
     try:
         given = scene_of(model, names=names)
     except YellowironError as error:
         return {"damage": name, "names": names, "unread": str(error)}
-    return {"kind": given.type, "damage": name, "names": names, **solved(given, int(limit), drive=True)}
+    given = shaken(given, shake, upright_of(model, given.joints)) if shake else given
+    return {"kind": given.type, "damage": name, "names": names, **solved(given, int(limit), drive=not shake)}
 
 
 def size_case(name: str, limit: str) -> Result:
@@ -229,10 +234,9 @@ def cases(chosen: argparse.Namespace) -> dict[str, list[tuple[Callable[..., Resu
             elif model.cad is None:
                 print(f"{model.name:34s} skipped: not in {chosen.models or f'--models or ${FOLDERS}'}")
             else:
-                for naming in names:
-                    table[f"{model.name}, {naming}"] = [
-                        (real_case, (model.name, chosen.models, str(chosen.labels), naming, limit))
-                    ]
+                for naming, shake in itertools.product(names, chosen.shake.split(",")):
+                    line = f"{model.name}, {naming}" + (f", {shake}" if shake else "")
+                    table[line] = [(real_case, (model.name, chosen.models, str(chosen.labels), naming, limit, shake))]
         return table
     for damage in chosen.damages.split(","):
         for naming in names:
@@ -256,6 +260,7 @@ def main() -> None:
     parser.add_argument("--labels", type=Path, default=LABELS)
     parser.add_argument("--only", default="")
     parser.add_argument("--held-back", action="store_true")
+    parser.add_argument("--shake", default="", help=f"some of {', '.join(SHAKES)}")
     parser.add_argument("--sizes", action="store_true")
     parser.add_argument("--limit", type=int, default=300)
     parser.add_argument("--jobs", type=int, default=1)

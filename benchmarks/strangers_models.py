@@ -111,7 +111,7 @@ def scene_of(model: Model, *, names: str) -> Scene:
     entries = list(_entries(model, assembly, template))
     truth = _surface(assembly, entries)
     joints = tuple(_joints(model, template))
-    height = float(np.ptp(truth.points @ _up(model, joints)))
+    height = float(np.ptp(truth.points @ upright_of(model, joints)))
     if names == "without":
         renamed = nameless(assembly)
         ids = {old.id: new.id for old, new in zip(assembly.parts, renamed.parts, strict=True)}
@@ -120,7 +120,7 @@ def scene_of(model: Model, *, names: str) -> Scene:
     return Scene(assembly, truth, joints, height, template.equipment_type)
 
 
-def _up(model: Model, joints: Sequence[TrueJoint]) -> np.ndarray:
+def upright_of(model: Model, joints: Sequence[TrueJoint]) -> np.ndarray:
     """The direction upwards: the label's, else that of the joint on which the upperstructure turns, else Z."""
     frame = model.labels.get("frame")
     if isinstance(frame, dict):

@@ -22,7 +22,9 @@ from yellowiron.alignment import (
     read_alignment,
     reviewed,
     said_in,
+    squared,
     to_scale,
+    turned_back,
     twin_role,
 )
 from yellowiron.mechanism import (
@@ -260,16 +262,35 @@ def _roles_of_whole(
 ) -> Alignment:
     """Roles for what is drawn and, where that is one half of a machine, for its mirror image: a half looks like no
     machine."""
+    edits = edits if data is None else library.with_relations(edits, data)
+    askew = squared(drawn)
+    if askew is None:
+        found = _roles_of_square(drawn, template, specifications, edits, choices)
+    else:
+        square, rotation = askew
+        found = _roles_of_square(square, template, specifications, edits, choices, rotation)
+        found = turned_back(found, rotation)
+    return found if data is None else library.with_axes(found, data)
+
+
+def _roles_of_square(
+    drawn: Assembly,
+    template: Template,
+    specifications: Specifications,
+    edits: Alignment | None,
+    choices: Mapping[str, str] | None,
+    rotation: Floats | None = None,
+) -> Alignment:
+    """`_roles_of_whole` of a model that stands square in its frame, to which `rotation` took its file's."""
     half = cad.half_of(drawn)
     assembly = drawn if half is None else cad.completed(drawn, half)
-    edits = edits if data is None else library.with_relations(edits, data)
-    alignment = align(assembly, template, specifications, edits=edits, choices=choices)
+    alignment = align(assembly, template, specifications, edits=edits, choices=choices, square=rotation)
     # A robot description whose bodies are the template's: what it says goes before what was found.
     declared = declared_roles(assembly, template, alignment)
     if declared:
         edits = replace(edits or alignment, parts=(*(edits.parts if edits else ()), *declared))
-        alignment = align(assembly, template, specifications, edits=edits, choices=choices)
-    return alignment if data is None else library.with_axes(alignment, data)
+        alignment = align(assembly, template, specifications, edits=edits, choices=choices, square=rotation)
+    return alignment
 
 
 def _of_drawn(found: Alignment, assembly: Assembly, template: Template) -> Alignment:

@@ -44,6 +44,7 @@ if TYPE_CHECKING:
     from yellowiron.alignment.labelling.halves import of_drawn
     from yellowiron.alignment.mixed_units import in_one_unit, reviewed
     from yellowiron.alignment.pipeline import align
+    from yellowiron.alignment.square import squared, turned_back
 
 __all__ = [
     "ABSENT",
@@ -69,7 +70,9 @@ __all__ = [
     "read_values",
     "reviewed",
     "said_in",
+    "squared",
     "to_scale",
+    "turned_back",
     "twin_role",
     "whole",
     "write_alignment",
@@ -101,7 +104,9 @@ __getattr__, __dir__ = lazy_names(
         "read_values": "files.alignment_json",
         "reviewed": "mixed_units",
         "said_in": "files.alignment_json",
+        "squared": "square",
         "to_scale": "assignment.unit_scale",
+        "turned_back": "square",
         "twin_role": "assignment.sides",
         "whole": "files.whole",
         "write_alignment": "files.alignment_json",

@@ -3,13 +3,13 @@
 from __future__ import annotations
 
 import itertools
-from dataclasses import dataclass
+from dataclasses import dataclass, field
 
 import numpy as np
 
 from yellowiron.model.alignment import Vector
 from yellowiron.model.geometry import Floats
-from yellowiron.support.vectors import unit
+from yellowiron.support.vectors import triple, unit
 
 NEAR = 0.8
 """A direction that is said means the one that was found this near to it (cosine); else itself."""
@@ -22,6 +22,13 @@ class Facing:
 
     forward: Vector | None = None
     up: Vector | None = None
+    square: Floats | None = field(default=None, compare=False)
+    """The rotation (3, 3) from the file's frame to the one in which these are told, where that is another one."""
+
+    def turned(self, rotation: Floats) -> Facing:
+        """The same in a frame to which a rotation (3, 3) takes the file's."""
+        ways = (None if way is None else triple(rotation @ np.array(way)) for way in (self.forward, self.up))
+        return Facing(*ways, square=rotation)
 
     def obeyed(self, rotation: Floats) -> Floats:
         """A rotation (3, 3), rows forward, left, up in the CAD file's frame, turned to what is said: by quarters where
@@ -34,7 +41,7 @@ class Facing:
             told = [float(np.array(way) @ own) for way, own in said if way is not None]
             return (*np.round(told, 6), *np.round([turned[2] @ rotation[2], turned[0] @ rotation[0]], 6))
 
-        found = max((np.asarray(quarter @ rotation) for quarter in _quarters()), key=fit)
+        found = max((np.asarray(quarter @ rotation) for quarter in quarters()), key=fit)
         up = _meant(self.up, found[2])
         forward = _meant(self.forward, found[0])
         if self.up is None:
@@ -47,8 +54,10 @@ class Facing:
     def against(self, rotation: Floats) -> tuple[str, ...]:
         """What is said otherwise than a rotation has it, in words."""
         said = (("forward", self.forward, rotation[0]), ("up", self.up, rotation[2]))
+        file = np.eye(3) if self.square is None else self.square
         return tuple(
-            f"{name} is {named_direction(way)} as a person says; what was found speaks for {named_direction(own)}"
+            f"{name} is {named_direction(np.array(way) @ file)} as a person says; "
+            f"what was found speaks for {named_direction(own @ file)}"
             for name, way, own in said if way is not None and float(np.array(way) @ own) < NEAR
         )  # fmt: skip
 
@@ -65,7 +74,7 @@ def named_direction(direction: Floats | Vector) -> str:
     return " ".join(f"{value:g}" for value in own)
 
 
-def _quarters() -> list[Floats]:
+def quarters() -> list[Floats]:
     """The 24 turns (3, 3) by quarters."""
     signed = (
         np.diag(signs) @ np.eye(3)[list(order)]

@@ -42,13 +42,13 @@ from yellowiron.alignment.assignment.sheet_weights import sheet_findings
 from yellowiron.alignment.assignment.sides import twin_role
 from yellowiron.alignment.assignment.weights import ends_untold, side_weights
 from yellowiron.alignment.axes.levers import without_lever
+from yellowiron.alignment.axes.searched import searched_axes, shown_axes
 from yellowiron.alignment.axes.unfound import axis_findings, lines_of, rough_axes, unfound_axes
 from yellowiron.alignment.copies import copies_of
 from yellowiron.alignment.facing import Facing
 from yellowiron.alignment.features.distance import Touch, touch_of
 from yellowiron.alignment.features.separate_parts import separate_parts
 from yellowiron.alignment.features.solids import solids_of
-from yellowiron.alignment.features.telescopes import Nest
 from yellowiron.alignment.features.tracks import Track
 from yellowiron.alignment.files.decisions import decided
 from yellowiron.alignment.files.heard import heard_of_whole, unlikely
@@ -79,11 +79,11 @@ from yellowiron.alignment.undrawn import undrawn
 from yellowiron.model.alignment import DECIDED, Alignment, Vector
 from yellowiron.model.assembly import Assembly
 from yellowiron.model.errors import AlignmentError
+from yellowiron.model.geometry import Floats
 from yellowiron.model.rows import as_drawn
 from yellowiron.model.specification import Specifications
 from yellowiron.model.template import Template, choose
 from yellowiron.support.caching.remembered import remembered
-from yellowiron.support.vectors import triple
 
 HELD = 0.7
 """Contacts that find this share of the type's joints have found the machine; below, every reading is asked."""
@@ -115,14 +115,15 @@ def align(
     *,
     edits: Alignment | None = None,
     choices: Mapping[str, str] | None = None,
+    square: Floats | None = None,
 ) -> Alignment:
     """Roles for the parts of a CAD model.
 
     `template` may carry variants: those `decided_by` geometry are tried and the best is taken, unless `choices` fixes
     them. `edits` is an earlier alignment, as a person left it (`read_alignment`): its rules and the parts that were
-    `DECIDED` keep their role. `AlignmentError` for an assembly without parts, for an unknown choice, and for edits that
-    name parts or roles that do not exist. The result does not depend on the order, names (beyond their weight) or frame
-    of the parts.
+    `DECIDED` keep their role. `square`: how the model was turned against its file (`squared`). `AlignmentError` for an
+    assembly without parts, for an unknown choice, and for edits that name parts or roles that do not exist. The result
+    does not depend on the order or names (beyond their weight) of the parts.
     """
     if not assembly.parts:
         raise AlignmentError(
@@ -131,7 +132,8 @@ def align(
     decisions, told = decided(assembly, template, edits)
     edited = {part: decision.role or "" for part, decision in decisions.items()}
     said, heard = heard_of_whole(edits, edited, assembly, template, choices or {})
-    every, template, choices, facing = template, undrawn(template, said.absent), said.choices, said.facing
+    every, template, choices = template, undrawn(template, said.absent), said.choices
+    facing = said.facing if square is None else said.facing.turned(square)
     bumpers = colliders(assembly) - edited.keys()
     drawn = _without(assembly, bumpers)
     copies = {copy: first for copy, first in copies_of(drawn).items() if copy not in edited}
@@ -240,7 +242,7 @@ def align(
         answer,
         Labels(by_id, apart, bumpers, decisions),
         frame or MachineFrame(np.eye(4)),
-        axes={**_axes(answer, observation), **on_further.axes},
+        axes={**shown_axes(answer, observation), **on_further.axes},
         told=choices.keys(),
         remarks=[
             *told,
@@ -288,7 +290,7 @@ def _with_all_axes(
     # Where contacts did not find the machine, what they take for a hinge without a pin may be none.
     turning = {j.name for j in template.joints if j.type == "revolute"} if answer.judged is not None else set()
     rough = {j: found.axes[j] for j in (known - declared) & turning if j in found.axes}
-    searched = _searched_axes(answer)
+    searched = searched_axes(answer)
     pinned = {j: searched[j] for j in (known - declared) & turning if j in searched and j not in {*lent, *rough}}
     estimates = unfound_axes(
         solids_of(assembly),
@@ -323,13 +325,6 @@ def _declared(found: Alignment, assembly: Assembly, template: Template) -> set[s
     return {j.name for j in template.joints if frozenset(template.bodies_of(j)) in pairs}
 
 
-def _searched_axes(answer: Answer) -> dict[str, tuple[Vector, Vector]]:
-    """Joint → the axis that the search has for it, for every hinge that it found."""
-    structure = answer.structure
-    axes = {j: structure.axes[structure.hinges[h].axis] for j, h in sorted(answer.solution.hinge_of.items())}
-    return {j: (triple(axis.origin), triple(axis.direction)) for j, axis in axes.items()}
-
-
 def _unpinned(found: Alignment, joints: Collection[str], template: Template) -> Alignment:
     """The alignment in which the pins of these joints are no pins of theirs: they move with their bodies, and are
     listed for review."""
@@ -353,7 +348,7 @@ def _unplayed_axes(found: Alignment, template: Template, answer: Answer) -> dict
     wanted = {j.name for j in template.joints}
     return {
         j: line
-        for j, line in _searched_axes(answer).items()
+        for j, line in searched_axes(answer).items()
         if j in wanted
         and hinges[answer.solution.hinge_of[j]].pins
         and pin_role(template.joint(j), template) not in roles
@@ -472,28 +467,3 @@ def _surfaces(observation: Observation, answer: Answer) -> dict[str, float]:
         b: sum(observation.solids[i].surface for i in sorted(clusters[c].members))
         for c, b in answer.solution.body_of.items()
     }
-
-
-def _axes(answer: Answer, observation: Observation) -> dict[str, tuple[Vector, Vector]]:
-    """Joint → its axis, for the joints that no pin is drawn for and that no wheel turns on, for the slides whose rod is
-    not drawn in its barrel, and for sections in each other."""
-    structure, cylinders = answer.structure, observation.cylinders
-    found = {}
-    for joint, slide in sorted(answer.solution.slide_of.items()):
-        outer, _, number = structure.slides[slide]
-        drawn = cylinders[number] if number < len(cylinders) else observation.nests[number - len(cylinders)]
-        if isinstance(drawn, Nest) or drawn.apart:
-            # A section may slide over the one that carries it: outwards is away from that.
-            over = isinstance(drawn, Nest) and _carried(answer, joint) == answer.solution.body_of.get(outer)
-            found[joint] = (triple(drawn.origin), triple(-drawn.direction if over else drawn.direction))
-    for joint, number in sorted(answer.solution.hinge_of.items()):
-        hinge = structure.hinges[number]
-        if not hinge.pins and not any(structure.clusters[c].kind == "wheel" for c in (hinge.a, hinge.b)):
-            axis = structure.axes[hinge.axis]
-            found[joint] = (triple(axis.origin), triple(axis.direction))
-    return found
-
-
-def _carried(answer: Answer, joint: str) -> str | None:
-    """The second body of a joint."""
-    return answer.template.bodies_of(answer.template.joint(joint))[1]

@@ -148,7 +148,11 @@ def on_wheels(stance: Stance, wheels: Sequence[Wheel]) -> Stance:
 
 def surface_points(solids: Sequence[Solid], count: int = POINTS) -> Floats:
     """(n, 3) points all over the surface, more where there is more of it; the same every time."""
-    corners = np.concatenate([s.points[s.shape.mesh.triangles] for s in solids])
+    return spread_over(np.concatenate([s.points[s.shape.mesh.triangles] for s in solids]), count)
+
+
+def spread_over(corners: Floats, count: int = POINTS) -> Floats:
+    """(n, 3) points all over triangles with these corners (m, 3, 3)."""
     double = np.linalg.norm(np.cross(corners[:, 1] - corners[:, 0], corners[:, 2] - corners[:, 0]), axis=1)
     total = np.cumsum(double)
     rng = np.random.default_rng(0)
@@ -181,22 +185,22 @@ def _across(points: Floats, size: float, hinges: Sequence[Floats]) -> tuple[Floa
         along = points @ start
         for middle in (np.median(along), 0.5 * (along.min() + along.max()), along.mean()):
             own = number < 3 + len(hinges)
-            direction, off = _mirrored(points, tree, start, middle, limit, rounds=1 if own else ROUNDS)
+            direction, off = mirrored(points, tree, start, middle, limit, rounds=1 if own else ROUNDS)
             off *= (1.0 if number < 3 else HINGED) if own else USUAL
             if off < best[0] - 1e-12:
                 best = (off, direction)
     return unit(best[1]), 1.0 - best[0] / limit
 
 
-def _mirrored(
+def mirrored(
     points: Floats, tree: cKDTree, direction: Floats, middle: float, limit: float, *, rounds: int
 ) -> tuple[Floats, float]:
     """The direction, turned in further `rounds` so that the mirrored surface lies on the surface, and how far off it
     is then, metres: the mean of what has a twin within `limit`, and of `limit` for what has none. The boom or the cab
     may be to one side."""
     for _ in range(rounds):
-        mirrored = points - 2.0 * (points @ direction - middle)[:, None] * direction
-        gaps, nearest = tree.query(mirrored, distance_upper_bound=limit)  # infinite beyond
+        image = points - 2.0 * (points @ direction - middle)[:, None] * direction
+        gaps, nearest = tree.query(image, distance_upper_bound=limit)  # infinite beyond
         off = float(np.mean(np.minimum(gaps, limit)))
         if rounds > 1:
             good = gaps < limit
