@@ -4,7 +4,7 @@ values that a sheet counts (a speed for each gear, a pull for each layer of rope
 from __future__ import annotations
 
 import re
-from collections.abc import Callable, Mapping, Sequence
+from collections.abc import Callable, Mapping, Sequence, Set
 from dataclasses import dataclass, replace
 from itertools import pairwise
 
@@ -32,29 +32,41 @@ class Match:
     by_head: bool = False
 
 
-_GEAR = {"gear", "shift", "reverse", "r"}
+def explained(found: Match, words: Set[str]) -> Match:
+    """The match with these words, which something else explains, taken off its label's doubt."""
+    rest = tuple(w for w in found.rest if w not in words)
+    if len(rest) == len(found.rest):
+        return found
+    lost = found.lost * (len(found.rest) - len(rest)) / len(found.rest)
+    return replace(found, score=found.score + lost, lost=found.lost - lost, rest=rest)
+
+
+_GEAR = {"gear", "shift", "travel", "reverse", "r"}
+_ONE_WAY = re.compile(r"\([^()]*\)")
+"""What a gear's remark says: "4th gear (forward only)"."""
 _NUMBERED = re.compile(r"\d")
 _FEWEST_GEARS = 3
 
 
 def is_gear(words: str) -> bool:
-    """Whether a row is called by its gear, and no more: "4th gear", "2", "R"."""
-    said = tokens(words)
+    """Whether a row is called by its gear, and no more: "4th gear", "2", "R", "4th gear (forward only)"."""
+    said = tokens(_ONE_WAY.sub("", words))
     named = {t for t in said if not _NUMBERED.search(t)}
     return bool(said) and named <= _GEAR and (len(named) < len(said) or "r" in named)
 
 
 def without_lone_gears(found: Mapping[str, list[Match]]) -> None:
     """Takes off the speeds of rows that are called by their gears where the page does not count three: one alone says
-    nothing of the greatest speed."""
+    nothing of the greatest speed. Where it does, the greatest speed is one of theirs."""
     speeds = [m for own in found.values() for m in own if m.wanted.dimension == "speed" and "gear" in m.rest]
     geared = [m for m in speeds if is_gear(m.claim.words) and not m.by_head]
     counts: dict[tuple[object, ...], set[str]] = {}
     for one in geared:
         counts.setdefault(_list_of(one), set()).update(t for t in tokens(one.claim.words) if _NUMBERED.search(t))
     lone = {id(m) for m in geared if len(counts[_list_of(m)]) < _FEWEST_GEARS}
+    greatest = {id(m) for m in geared if "maximum" in tokens(m.wanted.name)}
     for own in found.values():
-        own[:] = [m for m in own if id(m) not in lone]
+        own[:] = [explained(m, {"gear"}) if id(m) in greatest else m for m in own if id(m) not in lone]
 
 
 def _list_of(found: Match) -> tuple[object, ...]:
@@ -150,28 +162,46 @@ _GEARS = {"gear", "shift"}
 def extremes(matches: Sequence[Match], value: Callable[[Match], float]) -> list[Match]:
     """Of values that the rows of each column count one by one, and that rise or fall with the count, the greatest where
     a maximum is meant, the least where a minimum is; [] where the matches are anything else. `value`: in SI."""
-    columns: dict[tuple[object, ...], dict[int, list[Match]]] = {}
+    columns: dict[tuple[object, ...], dict[float, list[Match]]] = {}
+    gears = _are_gears(matches)
     counted = any(_count(m) is not None for m in matches)
-    if not counted and not _are_gears(matches):
+    if not counted and not gears:
         return []
     for one in matches:
         count = _count(one) if counted else one.claim.statement.row
         if count is None:
             return []
-        statement = one.claim.statement
-        place = (statement.sheet, statement.page, statement.column, statement.section)
-        columns.setdefault(place, {}).setdefault(count, []).append(one)
+        columns.setdefault(_column(one), {}).setdefault(count, []).append(one)
     geared = counted and all(m.wanted.dimension == "speed" and _GEARS & {*tokens(m.claim.words)} for m in matches)
     meant = _meant(matches) or ("maximum" if geared else None)
     found: list[Match] = []
     for rows in columns.values():
         values = [[value(m) for m in rows[count]] for count in sorted(rows)]
-        rises = all(max(a) < min(b) or (not counted and a == b) for a, b in pairwise(values))
+        rises = all(max(a) < min(b) or (gears and a == b) for a, b in pairwise(values))
         falls = all(min(a) > max(b) for a, b in pairwise(values))
         if meant is None or len(rows) < (2 if geared else _LEAST_COUNTED) or not (rises or falls):
             return []
         found += rows[max(rows) if rises == (meant == "maximum") else min(rows)]
     return found
+
+
+def _column(found: Match) -> tuple[object, ...]:
+    statement = found.claim.statement
+    return (statement.sheet, statement.page, statement.column, statement.section)
+
+
+def are_all_gears(matches: Sequence[Match]) -> bool:
+    """Whether matches are the speeds of all gears, counted from the first with none left out, of which the greatest is
+    asked for: that of the last is it."""
+    if not all(m.wanted.dimension == "speed" and "maximum" in tokens(m.wanted.name) for m in matches):
+        return False
+    columns: dict[tuple[object, ...], set[float]] = {}
+    for one in matches:
+        columns.setdefault(_column(one), set()).add(_count(one) or 0.0)
+    return all(
+        len(own) >= _LEAST_COUNTED and min(own) == 1 and all(b - a <= 1 for a, b in pairwise(sorted(own)))
+        for own in columns.values()
+    )
 
 
 def _are_gears(matches: Sequence[Match]) -> bool:
@@ -186,11 +216,18 @@ def _meant(matches: Sequence[Match]) -> str | None:
     return meant[0] if len(meant) == 1 else None
 
 
-def _count(found: Match) -> int | None:
-    """The number that a row counts with, in its label or as its name; None where there is none, or several."""
+_KEY = re.compile(r"(\d{1,2}(?:\.\d)?)\s+(?=[^\W\d])")
+
+
+def _count(found: Match) -> float | None:
+    """The number that a row of speeds begins with, or that a row counts with in its label or as its name; None where
+    there is none, or several."""
     statement = found.claim.statement
+    key = _KEY.match(statement.quote) if found.wanted.dimension == "speed" else None
     words = [w for text in (found.claim.words, *statement.variant) for w in tokens(text)]
     counts = [int(m.group(1)) for w in words if (m := _ORDINAL.fullmatch(w))]
+    if key is not None and not counts:
+        return float(key.group(1))
     return counts[0] if len(counts) == 1 else None
 
 

@@ -214,7 +214,7 @@ def _geared(said: _Said, words: str) -> _Said:
     """What a row says that is called by its gear alone, in a list of speeds or gears: that it is the travel speed of a
     gear, or one in reverse."""
     above = said.label | said.head | said.context | said.section
-    if not is_gear(words) or not _GEARED & above or ("forward" in above and "gear" not in said.label):
+    if not is_gear(words) or not _GEARED & above or ("forward" in above and not {"gear", "travel"} & said.label):
         return said
     reverse = {"reverse"} if said.label & {"r", "reverse"} else set()
     return replace(said, label=frozenset({"travel", "speed", "gear", *reverse}))
