@@ -84,6 +84,25 @@ def test_a_label_goes_on_behind_the_key_of_its_drawing(tmp_path: Path) -> None:
     }  # fmt: skip
 
 
+def test_a_label_broken_in_two_has_its_values_in_both_systems(tmp_path: Path) -> None:
+    """The last row of a ruled table has no rule under it: its second line was a row called "digging depth"."""
+    c = canvas(tmp_path / "a.pdf")
+    row(c, 708, "Stick", ("R3.9DB", "R3.2DB", "R2.9DB", "M2.5DB"), bold=True)
+    line(c, 704)
+    row(c, 694, "Maximum digging depth", ("8185 mm", "7485 mm", "7200 mm", "6633 mm"))
+    line(c, 690)
+    row(c, 680, "Maximum vertical wall", ("7152 mm", "6131 mm", "5747 mm", "4421 mm"))
+    row(c, 668, "digging depth", ("(23'6\")", "(20'1\")", "(18'10\")", "(14'6\")"))
+    c.save()
+    asked = template(
+        wanted("Maximum Digging Depth", "length", "maximum digging depth", "digging depth"),
+        wanted("Vertical Wall Depth", "length", "maximum vertical wall digging depth"),
+    )
+    assert said(extract(asked, [tmp_path / "a.pdf"], config="M2.5DB")) == {
+        "Maximum Digging Depth": ("ok", 6.633), "Vertical Wall Depth": ("ok", 4.421)
+    }  # fmt: skip
+
+
 def test_the_number_of_a_drawing_before_a_name_is_no_measure_of_it(tmp_path: Path) -> None:
     c = canvas(tmp_path / "a.pdf")
     put(c, 40, 708, "Dimensions", size=11, bold=True)

@@ -13,7 +13,7 @@ from yellowiron.specs.layout.rows.legends import without_keys
 from yellowiron.specs.layout.rows.lines import TextBlock, TextLine, bands
 from yellowiron.specs.layout.rows.prose import paragraphs_of, read_paragraph
 from yellowiron.specs.layout.rows.reader_state import ReaderState
-from yellowiron.specs.layout.rows.row_bands import split_if_separate, unfolded
+from yellowiron.specs.layout.rows.row_bands import broken_in_two, split_if_separate, unfolded
 from yellowiron.specs.layout.rows.value_rows import in_section, read_values
 from yellowiron.specs.layout.rows.word_rows import read_words
 from yellowiron.specs.layout.statement import (
@@ -37,8 +37,8 @@ def read_block(
     state = ReaderState(page, block, _type_size(page, block), section=section)
     paragraphs = paragraphs_of(block.lines)
     kept, beside = _without_paragraphs(block, paragraphs)
-    rows = unfolded([r for band in bands(without_keys(kept), page.rules, bars_of(page, block), block.x0, block.x1)
-                     for r in split_if_separate(band)])  # fmt: skip
+    lines = bands(without_keys(kept), page.rules, bars_of(page, block), block.x0, block.x1)
+    rows = unfolded(broken_in_two([row for band in lines for row in split_if_separate(band)]))
     for index in range(len(rows)):
         _read_nth_row(rows, index, state, first_row)
     found = state.found
