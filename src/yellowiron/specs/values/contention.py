@@ -153,7 +153,7 @@ def of_another_place(found: Match) -> str:
     return ""
 
 
-_ORDINAL = re.compile(r"(\d{1,2})(?:st|nd|rd|th|er|era|ere|eme|da|ra|ta|to|do|o|a|e)?")
+_ORDINAL = re.compile(r"[fr]?(\d{1,2})(?:st|nd|rd|th|er|era|ere|eme|da|ra|ta|to|do|o|a|e)?")
 _LEAST_COUNTED = 3
 _GEARS = {"gear", "shift"}
 """What counts speeds: the travel speed is that of the highest, also of two."""
@@ -163,21 +163,18 @@ def extremes(matches: Sequence[Match], value: Callable[[Match], float]) -> list[
     """Of values that the rows of each column count one by one, and that rise or fall with the count, the greatest where
     a maximum is meant, the least where a minimum is; [] where the matches are anything else. `value`: in SI."""
     columns: dict[tuple[object, ...], dict[float, list[Match]]] = {}
-    gears = _are_gears(matches)
-    counted = any(_count(m) is not None for m in matches)
-    if not counted and not gears:
-        return []
     for one in matches:
-        count = _count(one) if counted else one.claim.statement.row
+        count = _count(one)
         if count is None:
             return []
         columns.setdefault(_column(one), {}).setdefault(count, []).append(one)
-    geared = counted and all(m.wanted.dimension == "speed" and _GEARS & {*tokens(m.claim.words)} for m in matches)
+    speeds = all(m.wanted.dimension == "speed" for m in matches)
+    geared = speeds and all(_GEARS & {*tokens(m.claim.words)} for m in matches)
     meant = _meant(matches) or ("maximum" if geared else None)
     found: list[Match] = []
     for rows in columns.values():
         values = [[value(m) for m in rows[count]] for count in sorted(rows)]
-        rises = all(max(a) < min(b) or (gears and a == b) for a, b in pairwise(values))
+        rises = all(max(a) < min(b) or (speeds and a == b) for a, b in pairwise(values))
         falls = all(min(a) > max(b) for a, b in pairwise(values))
         if meant is None or len(rows) < (2 if geared else _LEAST_COUNTED) or not (rises or falls):
             return []
@@ -202,11 +199,6 @@ def are_all_gears(matches: Sequence[Match]) -> bool:
         len(own) >= _LEAST_COUNTED and min(own) == 1 and all(b - a <= 1 for a, b in pairwise(sorted(own)))
         for own in columns.values()
     )
-
-
-def _are_gears(matches: Sequence[Match]) -> bool:
-    """Whether the values are speeds under one name, one for each gear: "1.0 Forward", "1.5 Forward"."""
-    return len({m.claim.words for m in matches}) == 1 and all(m.wanted.dimension == "speed" for m in matches)
 
 
 def _meant(matches: Sequence[Match]) -> str | None:

@@ -211,12 +211,12 @@ def _said(claim: Claim) -> _Said:
 
 
 def _geared(said: _Said, words: str) -> _Said:
-    """What a row says that is called by its gear alone, in a list of speeds or gears: that it is the travel speed of a
-    gear, or one in reverse."""
+    """What a row says that is called by its gear alone ("R", "R2"), in a list of speeds or gears: that it is the travel
+    speed of a gear, or one in reverse."""
     above = said.label | said.head | said.context | said.section
     if not is_gear(words) or not _GEARED & above or ("forward" in above and not {"gear", "travel"} & said.label):
         return said
-    reverse = {"reverse"} if said.label & {"r", "reverse"} else set()
+    reverse = {"reverse"} if any(re.fullmatch(r"r\d?|reverse", t) for t in said.label) else set()
     return replace(said, label=frozenset({"travel", "speed", "gear", *reverse}))
 
 
