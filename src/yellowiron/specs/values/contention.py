@@ -45,6 +45,7 @@ _GEAR = {"gear", "shift", "travel", "reverse", "r"}
 _ONE_WAY = re.compile(r"\([^()]*\)")
 """What a gear's remark says: "4th gear (forward only)"."""
 _NUMBERED = re.compile(r"\d")
+_KEY = re.compile(r"(\d{1,2}(?:\.\d)?)\.?\s+(?=[^\W\d])")
 _FEWEST_GEARS = 3
 
 
@@ -55,14 +56,20 @@ def is_gear(words: str) -> bool:
     return bool(said) and named <= _GEAR and (len(named) < len(said) or "r" in named)
 
 
+def row_name(claim: Claim) -> str:
+    """What a row is called: its words, those of a gear with the number before them ("1. Gang")."""
+    key = _KEY.match(claim.statement.quote) if tokens(claim.words) == ("gear",) else None
+    return f"{key.group(1)} {claim.words}" if key else claim.words
+
+
 def without_lone_gears(found: Mapping[str, list[Match]]) -> None:
     """Takes off the speeds of rows that are called by their gears where the page does not count three: one alone says
     nothing of the greatest speed. Where it does, the greatest speed is one of theirs."""
     speeds = [m for own in found.values() for m in own if m.wanted.dimension == "speed" and "gear" in m.rest]
-    geared = [m for m in speeds if is_gear(m.claim.words) and not m.by_head]
+    geared = [m for m in speeds if is_gear(row_name(m.claim)) and not m.by_head]
     counts: dict[tuple[object, ...], set[str]] = {}
     for one in geared:
-        counts.setdefault(_list_of(one), set()).update(t for t in tokens(one.claim.words) if _NUMBERED.search(t))
+        counts.setdefault(_list_of(one), set()).update(t for t in tokens(row_name(one.claim)) if _NUMBERED.search(t))
     lone = {id(m) for m in geared if len(counts[_list_of(m)]) < _FEWEST_GEARS}
     greatest = {id(m) for m in geared if "maximum" in tokens(m.wanted.name)}
     for own in found.values():
@@ -206,9 +213,6 @@ def _meant(matches: Sequence[Match]) -> str | None:
     said = [{*tokens(m.wanted.name), *tokens(m.claim.words), *tokens(m.claim.head)} for m in matches]
     meant = [word for word in ("maximum", "minimum") if all(word in words for words in said)]
     return meant[0] if len(meant) == 1 else None
-
-
-_KEY = re.compile(r"(\d{1,2}(?:\.\d)?)\s+(?=[^\W\d])")
 
 
 def _count(found: Match) -> float | None:
