@@ -169,17 +169,11 @@ _GEARS = {"gear", "shift"}
 def extremes(matches: Sequence[Match], value: Callable[[Match], float]) -> list[Match]:
     """Of values that the rows of each column count one by one, and that rise or fall with the count, the greatest where
     a maximum is meant, the least where a minimum is; [] where the matches are anything else. `value`: in SI."""
-    columns: dict[tuple[object, ...], dict[float, list[Match]]] = {}
-    for one in matches:
-        count = _count(one)
-        if count is None:
-            return []
-        columns.setdefault(_column(one), {}).setdefault(count, []).append(one)
     speeds = all(m.wanted.dimension == "speed" for m in matches)
     geared = speeds and all(_GEARS & {*tokens(m.claim.words)} for m in matches)
     meant = _meant(matches) or ("maximum" if geared else None)
     found: list[Match] = []
-    for rows in columns.values():
+    for rows in _by_count(matches):
         values = [[value(m) for m in rows[count]] for count in sorted(rows)]
         rises = all(max(a) < min(b) or (speeds and a == b) for a, b in pairwise(values))
         falls = all(min(a) > max(b) for a, b in pairwise(values))
@@ -189,23 +183,25 @@ def extremes(matches: Sequence[Match], value: Callable[[Match], float]) -> list[
     return found
 
 
-def _column(found: Match) -> tuple[object, ...]:
-    statement = found.claim.statement
-    return (statement.sheet, statement.page, statement.column, statement.section)
-
-
 def are_all_gears(matches: Sequence[Match]) -> bool:
     """Whether matches are the speeds of all gears, counted from the first with none left out, of which the greatest is
     asked for: that of the last is it."""
-    if not all(m.wanted.dimension == "speed" and "maximum" in tokens(m.wanted.name) for m in matches):
-        return False
-    columns: dict[tuple[object, ...], set[float]] = {}
+    meant = all(m.wanted.dimension == "speed" and "maximum" in tokens(m.wanted.name) for m in matches)
+    counts = [sorted(rows) for rows in _by_count(matches)]
+    whole = [len(own) >= _LEAST_COUNTED and own[0] == 1 and all(b - a <= 1 for a, b in pairwise(own)) for own in counts]
+    return meant and bool(whole) and all(whole)
+
+
+def _by_count(matches: Sequence[Match]) -> list[dict[float, list[Match]]]:
+    """By column of a table, the matches by the number that their row counts with; [] where one has none."""
+    columns: dict[tuple[object, ...], dict[float, list[Match]]] = {}
     for one in matches:
-        columns.setdefault(_column(one), set()).add(_count(one) or 0.0)
-    return all(
-        len(own) >= _LEAST_COUNTED and min(own) == 1 and all(b - a <= 1 for a, b in pairwise(sorted(own)))
-        for own in columns.values()
-    )
+        count, place = _count(one), one.claim.statement
+        if count is None:
+            return []
+        column = (place.sheet, place.page, place.column, place.section)
+        columns.setdefault(column, {}).setdefault(count, []).append(one)
+    return list(columns.values())
 
 
 def _meant(matches: Sequence[Match]) -> str | None:
