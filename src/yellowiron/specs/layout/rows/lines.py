@@ -367,10 +367,13 @@ def bands(
         middle = (line.top + line.bottom) / 2
         above = max((y for y in edges if y < middle), default=None)
         below = min((y for y in edges if y >= middle), default=None)
-        tallest = (_TALLEST_HEAD if all(p.bold for p in line.pieces) else _TALLEST) * line.pieces[0].size
-        if above is None or below is None or below not in ys or below - above > tallest:
+        if above is None or below is None or below not in ys:
             free.append(line)
         else:
             groups.setdefault((above, below), []).append(line)
+    for (above, below), group in list(groups.items()):
+        bold = all(p.bold for line in group for p in line.pieces)
+        if below - above > (_TALLEST_HEAD if bold else _TALLEST) * group[0].pieces[0].size:
+            free += groups.pop((above, below))
     rows = [tuple(group) for group in groups.values()] + visual_rows(free)
     return sorted(rows, key=lambda row: (min(line.top for line in row), row[0].x0))
