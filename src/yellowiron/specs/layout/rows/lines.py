@@ -371,9 +371,11 @@ def bands(
             free.append(line)
         else:
             groups.setdefault((above, below), []).append(line)
-    for (above, below), group in list(groups.items()):
-        bold = all(p.bold for line in group for p in line.pieces)
-        if below - above > (_TALLEST_HEAD if bold else _TALLEST) * group[0].pieces[0].size:
-            free += groups.pop((above, below))
-    rows = [tuple(group) for group in groups.values()] + visual_rows(free)
+    rows: list[tuple[TextLine, ...]] = []
+    for (above, below), group in groups.items():
+        tallest = _TALLEST_HEAD if all(p.bold for line in group for p in line.pieces) else _TALLEST
+        row = [line for line in group if below - above <= tallest * line.pieces[0].size]
+        free += [line for line in group if below - above > tallest * line.pieces[0].size]
+        rows += [tuple(row)] if row else []
+    rows += visual_rows(free)
     return sorted(rows, key=lambda row: (min(line.top for line in row), row[0].x0))
