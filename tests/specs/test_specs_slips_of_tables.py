@@ -96,13 +96,39 @@ def test_gears_say_the_greatest_speed_together_and_none_alone(tmp_path: Path) ->
         put(c, 60, 680 - 14 * n, f"{n + 1}. gear")
         put(c, 200, 680 - 14 * n, f"{speed} km/h")
     c.save()
-    assert said(extract(asked, [tmp_path / "a.pdf"])) == {"Maximum Travel Speed": ("review", round(37 / 3.6, 3))}
+    assert said(extract(asked, [tmp_path / "a.pdf"])) == {"Maximum Travel Speed": ("ok", round(37 / 3.6, 3))}
+    reason = extract(asked, [tmp_path / "a.pdf"]).values["Maximum Travel Speed"].reason
+    assert reason.endswith("; the rows count 4 values up or down, of which this is the last")
     c = canvas(tmp_path / "b.pdf")
     put(c, 60, 700, "VEHICLE SPEEDS")
     put(c, 60, 680, "2. gear")
     put(c, 200, 680, "17 km/h")
     c.save()
     assert said(extract(asked, [tmp_path / "b.pdf"])) == {}
+
+
+@pytest.mark.parametrize(
+    ("title", "forward", "reverse"),
+    [
+        ("TRAVEL SPEEDS", ("F1", "F2", "F3", "F4"), ("R1", "R2", "R3")),
+        ("TRANSMISIÓN", ("1era marcha", "2da marcha", "3ra marcha", "4ta marcha (solo avance)"), ("R",)),
+        ("Getriebe", ("1. Gang", "2. Gang", "3. Gang", "4. Gang"), ("R",)),
+    ],
+)
+def test_gears_of_either_way(tmp_path: Path, title: str, forward: Sequence[str], reverse: Sequence[str]) -> None:
+    speeds = [7.4, 14.5, 25.2, 37.9]
+    asked = template(wanted("Maximum Travel Speed", "speed", "travel speed"),
+                     wanted("Maximum Reverse Speed", "speed", "reverse travel speed"))  # fmt: skip
+    c = canvas(tmp_path / "a.pdf")
+    put(c, 60, 700, title, size=11, bold=True)
+    rows = [*zip(forward, speeds, strict=True), *((gear, 0.9 * v) for gear, v in zip(reverse, speeds, strict=False))]
+    for n, (gear, speed) in enumerate(rows):
+        put(c, 60, 680 - 14 * n, gear)
+        put(c, 200, 680 - 14 * n, f"{speed:.2f} km/h")
+    c.save()
+    found = said(extract(asked, [tmp_path / "a.pdf"]))
+    assert found["Maximum Travel Speed"] == ("ok", round(37.9 / 3.6, 3))
+    assert found["Maximum Reverse Speed"] == ("ok", round(0.9 * speeds[len(reverse) - 1] / 3.6, 3))
 
 
 def test_of_a_pair_under_a_label_of_one_the_first_is_meant(tmp_path: Path) -> None:

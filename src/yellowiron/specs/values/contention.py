@@ -4,7 +4,7 @@ values that a sheet counts (a speed for each gear, a pull for each layer of rope
 from __future__ import annotations
 
 import re
-from collections.abc import Callable, Mapping, Sequence
+from collections.abc import Callable, Mapping, Sequence, Set
 from dataclasses import dataclass, replace
 from itertools import pairwise
 
@@ -32,29 +32,48 @@ class Match:
     by_head: bool = False
 
 
-_GEAR = {"gear", "shift", "reverse", "r"}
+def explained(found: Match, words: Set[str]) -> Match:
+    """The match with these words, which something else explains, taken off its label's doubt."""
+    rest = tuple(w for w in found.rest if w not in words)
+    if len(rest) == len(found.rest):
+        return found
+    lost = found.lost * (len(found.rest) - len(rest)) / len(found.rest)
+    return replace(found, score=found.score + lost, lost=found.lost - lost, rest=rest)
+
+
+_GEAR = {"gear", "shift", "travel", "reverse", "r"}
+_ONE_WAY = re.compile(r"\([^()]*\)")
+"""What a gear's remark says: "4th gear (forward only)"."""
 _NUMBERED = re.compile(r"\d")
+_KEY = re.compile(r"(\d{1,2}(?:\.\d)?)\.?\s+(?=[^\W\d])")
 _FEWEST_GEARS = 3
 
 
 def is_gear(words: str) -> bool:
-    """Whether a row is called by its gear, and no more: "4th gear", "2", "R"."""
-    said = tokens(words)
+    """Whether a row is called by its gear, and no more: "4th gear", "2", "R", "4th gear (forward only)"."""
+    said = tokens(_ONE_WAY.sub("", words))
     named = {t for t in said if not _NUMBERED.search(t)}
     return bool(said) and named <= _GEAR and (len(named) < len(said) or "r" in named)
 
 
+def row_name(claim: Claim) -> str:
+    """What a row is called: its words, those of a gear with the number before them ("1. Gang")."""
+    key = _KEY.match(claim.statement.quote) if tokens(claim.words) == ("gear",) else None
+    return f"{key.group(1)} {claim.words}" if key else claim.words
+
+
 def without_lone_gears(found: Mapping[str, list[Match]]) -> None:
     """Takes off the speeds of rows that are called by their gears where the page does not count three: one alone says
-    nothing of the greatest speed."""
+    nothing of the greatest speed. Where it does, the greatest speed is one of theirs."""
     speeds = [m for own in found.values() for m in own if m.wanted.dimension == "speed" and "gear" in m.rest]
-    geared = [m for m in speeds if is_gear(m.claim.words) and not m.by_head]
+    geared = [m for m in speeds if is_gear(row_name(m.claim)) and not m.by_head]
     counts: dict[tuple[object, ...], set[str]] = {}
     for one in geared:
-        counts.setdefault(_list_of(one), set()).update(t for t in tokens(one.claim.words) if _NUMBERED.search(t))
+        counts.setdefault(_list_of(one), set()).update(t for t in tokens(row_name(one.claim)) if _NUMBERED.search(t))
     lone = {id(m) for m in geared if len(counts[_list_of(m)]) < _FEWEST_GEARS}
+    greatest = {id(m) for m in geared if "maximum" in tokens(m.wanted.name)}
     for own in found.values():
-        own[:] = [m for m in own if id(m) not in lone]
+        own[:] = [explained(m, {"gear"}) if id(m) in greatest else m for m in own if id(m) not in lone]
 
 
 def _list_of(found: Match) -> tuple[object, ...]:
@@ -141,7 +160,7 @@ def of_another_place(found: Match) -> str:
     return ""
 
 
-_ORDINAL = re.compile(r"(\d{1,2})(?:st|nd|rd|th|er|era|ere|eme|da|ra|ta|to|do|o|a|e)?")
+_ORDINAL = re.compile(r"[fr]?(\d{1,2})(?:st|nd|rd|th|er|era|ere|eme|da|ra|ta|to|do|o|a|e)?")
 _LEAST_COUNTED = 3
 _GEARS = {"gear", "shift"}
 """What counts speeds: the travel speed is that of the highest, also of two."""
@@ -150,23 +169,13 @@ _GEARS = {"gear", "shift"}
 def extremes(matches: Sequence[Match], value: Callable[[Match], float]) -> list[Match]:
     """Of values that the rows of each column count one by one, and that rise or fall with the count, the greatest where
     a maximum is meant, the least where a minimum is; [] where the matches are anything else. `value`: in SI."""
-    columns: dict[tuple[object, ...], dict[int, list[Match]]] = {}
-    counted = any(_count(m) is not None for m in matches)
-    if not counted and not _are_gears(matches):
-        return []
-    for one in matches:
-        count = _count(one) if counted else one.claim.statement.row
-        if count is None:
-            return []
-        statement = one.claim.statement
-        place = (statement.sheet, statement.page, statement.column, statement.section)
-        columns.setdefault(place, {}).setdefault(count, []).append(one)
-    geared = counted and all(m.wanted.dimension == "speed" and _GEARS & {*tokens(m.claim.words)} for m in matches)
+    speeds = all(m.wanted.dimension == "speed" for m in matches)
+    geared = speeds and all(_GEARS & {*tokens(m.claim.words)} for m in matches)
     meant = _meant(matches) or ("maximum" if geared else None)
     found: list[Match] = []
-    for rows in columns.values():
+    for rows in _by_count(matches):
         values = [[value(m) for m in rows[count]] for count in sorted(rows)]
-        rises = all(max(a) < min(b) or (not counted and a == b) for a, b in pairwise(values))
+        rises = all(max(a) < min(b) or (speeds and a == b) for a, b in pairwise(values))
         falls = all(min(a) > max(b) for a, b in pairwise(values))
         if meant is None or len(rows) < (2 if geared else _LEAST_COUNTED) or not (rises or falls):
             return []
@@ -174,9 +183,25 @@ def extremes(matches: Sequence[Match], value: Callable[[Match], float]) -> list[
     return found
 
 
-def _are_gears(matches: Sequence[Match]) -> bool:
-    """Whether the values are speeds under one name, one for each gear: "1.0 Forward", "1.5 Forward"."""
-    return len({m.claim.words for m in matches}) == 1 and all(m.wanted.dimension == "speed" for m in matches)
+def are_all_gears(matches: Sequence[Match]) -> bool:
+    """Whether matches are the speeds of all gears, counted from the first with none left out, of which the greatest is
+    asked for: that of the last is it."""
+    meant = all(m.wanted.dimension == "speed" and "maximum" in tokens(m.wanted.name) for m in matches)
+    counts = [sorted(rows) for rows in _by_count(matches)]
+    whole = [len(own) >= _LEAST_COUNTED and own[0] == 1 and all(b - a <= 1 for a, b in pairwise(own)) for own in counts]
+    return meant and bool(whole) and all(whole)
+
+
+def _by_count(matches: Sequence[Match]) -> list[dict[float, list[Match]]]:
+    """By column of a table, the matches by the number that their row counts with; [] where one has none."""
+    columns: dict[tuple[object, ...], dict[float, list[Match]]] = {}
+    for one in matches:
+        count, place = _count(one), one.claim.statement
+        if count is None:
+            return []
+        column = (place.sheet, place.page, place.column, place.section)
+        columns.setdefault(column, {}).setdefault(count, []).append(one)
+    return list(columns.values())
 
 
 def _meant(matches: Sequence[Match]) -> str | None:
@@ -186,11 +211,15 @@ def _meant(matches: Sequence[Match]) -> str | None:
     return meant[0] if len(meant) == 1 else None
 
 
-def _count(found: Match) -> int | None:
-    """The number that a row counts with, in its label or as its name; None where there is none, or several."""
+def _count(found: Match) -> float | None:
+    """The number that a row of speeds begins with, or that a row counts with in its label or as its name; None where
+    there is none, or several."""
     statement = found.claim.statement
+    key = _KEY.match(statement.quote) if found.wanted.dimension == "speed" else None
     words = [w for text in (found.claim.words, *statement.variant) for w in tokens(text)]
     counts = [int(m.group(1)) for w in words if (m := _ORDINAL.fullmatch(w))]
+    if key is not None and not counts:
+        return float(key.group(1))
     return counts[0] if len(counts) == 1 else None
 
 

@@ -154,14 +154,14 @@ def _is_sure(found: Match, side: Side) -> bool:
 
 
 def _filled_in(claims: Sequence[Claim], side: Side) -> list[Claim]:
-    """The claims, those of bare numbers in every unit that a sheet may leave unsaid: what is usual tells them apart;
-    those of the layout's cells with what their unit says."""
+    """The claims, those of bare numbers in every unit that a sheet may leave unsaid, as what is usual tells them apart
+    (but how many parts a thing has is no length); those of the layout's cells with what their unit says."""
     found: list[Claim] = []
     for claim in claims:
         unsaid = _SAID_BY_UNIT.get(claim.quantity.dimension) if side == "cell" else None
         found.append(replace(claim, words=f"{claim.words} {unsaid}") if unsaid else claim)
         bare = not claim.quantity.unit and claim.quantity.sign in ("", "±") and "%" not in claim.statement.text
-        if bare and (side != "cell" or claim.quantity.value >= 10.0):
+        if bare and side != "behind" and (side != "cell" or claim.quantity.value >= 10.0):
             units = [unit for group in _UNITS.values() for unit in group]
             found += [replace(claim, quantity=replace(claim.quantity, unit=unit)) for unit in units]
     return found

@@ -16,7 +16,15 @@ from yellowiron.specs.language.vocabulary import tokens
 from yellowiron.specs.layout.statement import Statement, words_beside_numbers
 from yellowiron.specs.pages.strokes import Box
 from yellowiron.specs.values.claims import Claim, configured_by, names_model, sisters_in, split_phrases, without_case
-from yellowiron.specs.values.contention import Match, called, extremes, first_of_two, of_another_place
+from yellowiron.specs.values.contention import (
+    Match,
+    are_all_gears,
+    called,
+    explained,
+    extremes,
+    first_of_two,
+    of_another_place,
+)
 from yellowiron.specs.values.requested import check_hint, hint_for, usual
 from yellowiron.specs.values.stated_configuration import Stated
 from yellowiron.specs.values.tolerances import DOUBTFUL, SURE
@@ -54,10 +62,10 @@ def decide(wanted: Wanted, matches: Sequence[Match], sheets: Sheets, config: str
     whole = [m for m in matches if not is_broken_off(m.claim.statement.label)]
     chosen = _without_charts(_configured(whole or matches, sheets, config))
     groups = _groups(wanted, chosen)
-    said, counted, beside = None, "", list[Match]()
+    counted, also, beside = "", "", list[Match]()
     if len(groups) > 1:
         said, chosen = _as_stated(wanted, chosen, sheets)
-        groups = _groups(wanted, chosen)
+        groups, also = _groups(wanted, chosen), f"; page {said.page} says: “{said.sentence}”" if said else ""
     if len(groups) > 1:
         every = [m for group in groups for m in group]
         greatest = extremes(every, lambda m: settled(wanted, m.claim)[0].si_value)
@@ -70,6 +78,8 @@ def decide(wanted: Wanted, matches: Sequence[Match], sheets: Sheets, config: str
             return _conflict(wanted, groups, sheets, config)
         if not counted.startswith("the rows count"):  # what another reader reads the same is not settled by that
             beside = [max(g, key=_preference) for g in groups if not any(m is one for m in g for one in greatest)]
+        elif are_all_gears(chosen):
+            also, counted = f"{also}; {counted}", ""
         groups = [greatest]
     group = groups[0]
     top = max(group, key=_preference)
@@ -98,7 +108,7 @@ def decide(wanted: Wanted, matches: Sequence[Match], sheets: Sheets, config: str
         text=printed(quantity),
         example=all(m.claim.statement.example for m in group),
         confidence=round(min(top.score, DOUBTFUL if doubt else 1.0), 3),
-        reason=doubt or _reason(top, group) + (f"; page {said.page} says: “{said.sentence}”" if said else ""),
+        reason=doubt or _reason(top, group) + also,
         hint=check_hint(wanted.name) if doubt else "",
         candidates=(
             candidate(top, sheets, value),
@@ -184,7 +194,7 @@ def _configured(matches: Sequence[Match], sheets: Sheets, config: str) -> list[M
     """The matches that fit the configuration asked for: each of its phrases keeps those whose column says it best. A
     head that says the phrase and no more ("Teeth") beats one that says more ("Teeth and segments")."""
     said = set(tokens(config))
-    kept = [_explained(m, said) for m in matches]
+    kept = [explained(m, said) for m in matches]
     for phrase, words in phrases_of(config).items():
         one = without_case(phrase)
         named = [m for m in kept if any(one in {without_case(h), *sisters_in(h)} for h in configured_by(m.claim))]
@@ -313,15 +323,6 @@ def _says(words: set[str], name: str) -> bool:
     said = [{f"{q.value:g} {q.printed.name}" for q in (*r.numbers, *r.partner) if q.printed} & words for r in readings]
     rest = set(tokens(_without_quantities(name)))
     return bool(readings or rest) and all(said) and rest <= words
-
-
-def _explained(found: Match, words: set[str]) -> Match:
-    """The match with the words of its label that the configuration explains taken off its doubt."""
-    rest = tuple(w for w in found.rest if w not in words)
-    if not found.rest or len(rest) == len(found.rest):
-        return found
-    lost = found.lost * (len(found.rest) - len(rest)) / len(found.rest)
-    return replace(found, score=found.score + lost, lost=found.lost - lost, rest=rest)
 
 
 def quantity_words(text: str, unit: str = "", style: DecimalStyle = "point") -> set[str]:

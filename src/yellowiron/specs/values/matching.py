@@ -33,6 +33,7 @@ from yellowiron.specs.values.contention import (
     ends_told_apart,
     is_gear,
     is_possible,
+    row_name,
     without_lone_gears,
     without_shared_headings,
 )
@@ -73,7 +74,7 @@ def match(claims: Sequence[Claim], wanted: Sequence[Wanted]) -> dict[str, list[M
     for claim in claims:
         said, dimension = _said(claim), claim.quantity.dimension
         place = claim.statement
-        words = (dimension, claim.words, claim.head, place.column, place.context, place.section, place.running)
+        words = (dimension, row_name(claim), claim.head, place.column, place.context, place.section, place.running)
         if words not in known:
             every = (_match(a, claim, said) for a in by_dimension.get(dimension, ()))
             known[words] = [m for m in every if m is not None and m.score >= LEAST]
@@ -207,16 +208,16 @@ def _with_words(texts: tuple[str, ...]) -> tuple[tuple[str, frozenset[str]], ...
 def _said(claim: Claim) -> _Said:
     statement = claim.statement
     said = _cut(claim.words, claim.head, statement.column, statement.context, statement.section)
-    return _geared(said, claim.words) if claim.quantity.dimension == "speed" else said
+    return _geared(said, row_name(claim)) if claim.quantity.dimension == "speed" else said
 
 
 def _geared(said: _Said, words: str) -> _Said:
-    """What a row says that is called by its gear alone, in a list of speeds or gears: that it is the travel speed of a
-    gear, or one in reverse."""
+    """What a row says that is called by its gear alone ("R", "R2"), in a list of speeds or gears: that it is the travel
+    speed of a gear, or one in reverse."""
     above = said.label | said.head | said.context | said.section
-    if not is_gear(words) or not _GEARED & above or ("forward" in above and "gear" not in said.label):
+    if not is_gear(words) or not _GEARED & above or ("forward" in above and not {"gear", "travel"} & said.label):
         return said
-    reverse = {"reverse"} if said.label & {"r", "reverse"} else set()
+    reverse = {"reverse"} if any(re.fullmatch(r"r\d?|reverse", t) for t in said.label) else set()
     return replace(said, label=frozenset({"travel", "speed", "gear", *reverse}))
 
 

@@ -11,6 +11,9 @@ from yellowiron.specs.layout.statement import TextPiece, kind_of, split_inline
 from yellowiron.specs.pages.strokes import Box, DrawnRule
 from yellowiron.specs.pages.words import Word
 
+_TALLEST = 6.5
+_TALLEST_HEAD = 8.0
+"""Between two rules that are farther apart than this times the type size stand rows of their own; so do bold heads."""
 _HANGING = 20.0
 """Points by which a heading may stand out to the left of the labels under it."""
 _PANEL = 60.0
@@ -153,13 +156,16 @@ def _gutter(lines: Sequence[TextLine], bars: Sequence[Box], across: Sequence[Box
             x in drawn and _begun_at(part, x) >= 3 and not _parts_labels_from_values(part, x)
         )
         parts = parts or (x in running and all(_runs(part, x, side) >= _FEWEST_RUNNING for side in (-1, 1)))
-        if weight >= 3 and parts and (best is None or weight > best[0]):
+        bold = all(p.bold for line in part for p in line.pieces)
+        if weight >= (_FEWEST_BOLD if bold else 3) and parts and (best is None or weight > best[0]):
             best = (weight, x, first, last)
     return best[1:] if best else None
 
 
 _SURELY_PAIRED = 6
 """So many labels with values make a column of them, though a list without values goes on under them."""
+_FEWEST_BOLD = 6
+"""Lines of bold words that may be a column of text; fewer are heads of a table's columns."""
 _FEWEST_RUNNING = 5
 """Lines of running text that make a column of it."""
 
@@ -361,9 +367,15 @@ def bands(
         middle = (line.top + line.bottom) / 2
         above = max((y for y in edges if y < middle), default=None)
         below = min((y for y in edges if y >= middle), default=None)
-        if above is None or below is None or below not in ys or below - above > 6.5 * line.pieces[0].size:
+        if above is None or below is None or below not in ys:
             free.append(line)
         else:
             groups.setdefault((above, below), []).append(line)
-    rows = [tuple(group) for group in groups.values()] + visual_rows(free)
+    rows: list[tuple[TextLine, ...]] = []
+    for (above, below), group in groups.items():
+        tallest = _TALLEST_HEAD if all(p.bold for line in group for p in line.pieces) else _TALLEST
+        row = [line for line in group if below - above <= tallest * line.pieces[0].size]
+        free += [line for line in group if below - above > tallest * line.pieces[0].size]
+        rows += [tuple(row)] if row else []
+    rows += visual_rows(free)
     return sorted(rows, key=lambda row: (min(line.top for line in row), row[0].x0))

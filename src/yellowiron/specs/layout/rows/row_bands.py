@@ -6,7 +6,7 @@ from collections.abc import Iterator, Sequence
 
 from yellowiron.specs.language.numbers import read
 from yellowiron.specs.language.quantities import same
-from yellowiron.specs.layout.rows.cells import cells_of
+from yellowiron.specs.layout.rows.cells import ValueCell, cells_of
 from yellowiron.specs.layout.rows.lines import TextLine
 from yellowiron.specs.layout.statement import TextPiece, kind_of, unit_in_label, words_beside_numbers
 from yellowiron.specs.layout.tolerances import INDENT, LARGER
@@ -99,19 +99,35 @@ def _are_heads_of(line: TextLine, row: TextLine) -> bool:
     return over and named and bare and line.bottom <= row.top + 2 and line.x0 > row.x0 + 2 * line.pieces[0].size
 
 
-def _in_two_systems(lines: Sequence[TextLine]) -> bool:
-    """Whether two lines with labels are one row, its label broken in two: their values are the same, metric and
-    imperial."""
+def _in_two_systems(lines: Sequence[TextLine], fewest: int = 1) -> bool:
+    """Whether two lines with labels are one row, its label broken in two: their values, at least so many, are the same
+    one by one, metric and imperial."""
     both = [cells_of((line,)) for line in lines]
-    if len(lines) != 2 or any(len(cells) != 1 or not cells[0].label for cells in both):
+    if len(lines) != 2 or not fewest <= len(both[0]) == len(both[1]) or not all(cells[0].label for cells in both):
         return False
-    values = [read(" ".join(p.text for p in c.values), unit=c.unit or unit_in_label(c.label[-1].bare)[1])
-              for cells in both for c in cells]  # fmt: skip
+    return all(map(_are_the_same, *both))
+
+
+def _are_the_same(*cells: ValueCell) -> bool:
+    units = [c.unit or next((unit_in_label(p.bare)[1] for p in c.label[-1:]), "") for c in cells]
+    values = [read(" ".join(p.text for p in c.values), unit=u) for c, u in zip(cells, units, strict=True)]
     if any(len(v) != 1 or len(v[0].numbers) != 1 for v in values):
         return False
     first, second = (v[0].numbers[0] for v in values)
     systems = {q.printed.system for q in (first, second) if q.printed}
     return systems == {"metric", "imperial"} and same(first, second)
+
+
+def broken_in_two(rows: Sequence[Sequence[TextLine]]) -> list[Sequence[TextLine]]:
+    """The rows, those whose label goes on beside the same values in the other system one with these: "Maximum vertical
+    wall   7152 mm   6131 mm" over "digging depth   (23'6\")   (20'1\")"."""
+    found: list[Sequence[TextLine]] = []
+    for row in rows:
+        if found and len(row) == 1 == len(found[-1]) and _in_two_systems((*found[-1], *row), fewest=2):
+            found[-1] = (*found[-1], *row)
+        else:
+            found.append(row)
+    return found
 
 
 _FEWEST = 3

@@ -13,13 +13,14 @@ from yellowiron.specs.layout.rows.legends import without_keys
 from yellowiron.specs.layout.rows.lines import TextBlock, TextLine, bands
 from yellowiron.specs.layout.rows.prose import paragraphs_of, read_paragraph
 from yellowiron.specs.layout.rows.reader_state import ReaderState
-from yellowiron.specs.layout.rows.row_bands import split_if_separate, unfolded
+from yellowiron.specs.layout.rows.row_bands import broken_in_two, split_if_separate, unfolded
 from yellowiron.specs.layout.rows.value_rows import in_section, read_values
 from yellowiron.specs.layout.rows.word_rows import read_words
 from yellowiron.specs.layout.statement import (
     EXAMPLE,
     Statement,
     TextPiece,
+    is_key,
     joined,
     kind_of,
     split_inline,
@@ -36,8 +37,8 @@ def read_block(
     state = ReaderState(page, block, _type_size(page, block), section=section)
     paragraphs = paragraphs_of(block.lines)
     kept, beside = _without_paragraphs(block, paragraphs)
-    rows = unfolded([r for band in bands(without_keys(kept), page.rules, bars_of(page, block), block.x0, block.x1)
-                     for r in split_if_separate(band)])  # fmt: skip
+    lines = bands(without_keys(kept), page.rules, bars_of(page, block), block.x0, block.x1)
+    rows = unfolded(broken_in_two([row for band in lines for row in split_if_separate(band)]))
     for index in range(len(rows)):
         _read_nth_row(rows, index, state, first_row)
     found = state.found
@@ -99,7 +100,7 @@ def _read_row(row: Sequence[TextLine], state: ReaderState, number: int) -> None:
         state.open_section(state.heading(max(line.bottom for line in row), pieces[0].text), tuple(pieces[1:]))
         return
     ordered = sorted(row, key=lambda line: line.top)
-    if len(row) == 2 and _are_names(*ordered):
+    if len(row) > 1 and _are_names(ordered):
         for line in ordered:
             state.add_heads(line.pieces)
         return
@@ -130,15 +131,15 @@ def _are_designations(pieces: Sequence[TextPiece]) -> bool:
     return 1 < len(names) == len(pieces) - 1 and any(re.search(r"[A-Z]{2}", name) for name in names)
 
 
-def _are_names(names: TextLine, sizes: TextLine) -> bool:
-    """Whether two bold lines name columns, each by its name and its size under it: "Stick   R3.9   R3.2" over
-    "(12'10\")   (10'6\")"."""
-    over = names.pieces[-len(sizes.pieces) :]
-    bold = all(p.bold for p in (*names.pieces, *sizes.pieces))
-    return bold and len(names.pieces) == len(over) + 1 > 2 and all(
-        n.x0 < s.x1 and s.x0 < n.x1 and kind_of(n) != "value" == kind_of(s)
-        for n, s in zip(over, sizes.pieces, strict=True)
-    )  # fmt: skip
+def _are_names(lines: Sequence[TextLine]) -> bool:
+    """Whether bold lines name columns, each by its name and what stands under it: "Stick   R3.9   R3.2" over
+    "(12'10\")   (10'6\")", "Bucket   GP 1.19 m3   GP 1.19 m3" over "with coupler" under the second."""
+    (first, *over), under = lines[0].pieces, [line.pieces for line in lines[1:]]
+    bold = all(p.bold for line in lines for p in line.pieces)
+    named = all(kind_of(n) != "value" or words_beside_numbers(n.bare, read(n.bare)) for n in over)
+    return bold and named and kind_of(first) == "text" and len(over) == len(under[0]) > 1 and all(
+        any(n.x0 < p.x1 and p.x0 < n.x1 for n in over) for line in under for p in line
+    ) and all(kind_of(p) == "value" for p in under[0])  # fmt: skip
 
 
 def _captioned(above: Sequence[TextLine], row: Sequence[TextLine], following: Sequence[Sequence[TextLine]]) -> bool:
@@ -193,7 +194,7 @@ def _continue_label(row: Sequence[TextLine], following: Sequence[TextLine] | Non
     up = row[0].bottom - above[-1].bottom
     down = min(line.bottom for line in following) - row[0].bottom if following else float("inf")
     same = (
-        abs(more.x0 - label.x0) < 1.5
+        abs(more.x0 - (label.x0 if more.text.startswith("(") else _behind_key(label, more.x0))) < 1.5
         and abs(more.size - label.size) < 0.1
         and more.x1 < min(found[i].x0 for i in indices)
     )
@@ -209,6 +210,13 @@ def _continue_label(row: Sequence[TextLine], following: Sequence[TextLine] | Non
     if own:
         state.last = (row, indices, first)
     return bool(own)
+
+
+def _behind_key(label: TextPiece, x0: float) -> float:
+    """Where a label begins, or its words behind the key of its drawing, whichever is nearer: "5 Maximum depth cut for"
+    over "  2240 mm level bottom"."""
+    words = label.words[: 2 if is_key(label.words[0].text) else 1]
+    return min((w.x0 for w in words), key=lambda begin: abs(begin - x0))
 
 
 def _label_orphans(line: TextLine, state: ReaderState) -> bool:

@@ -52,6 +52,8 @@ def read_words(line: TextLine, state: ReaderState) -> None:
         if at_label and not is_unit(texts[0].bare):
             state.pending = []
             state.corner = texts[0] if len(texts) > 2 and names_a_part(texts[0].bare) else state.corner
+            if sum(head[0].x0 < state.labels_end for head in state.heads) > 1:
+                state.corner = None  # "Stick   R3.9 m   R3.2 m" over "Bucket   GD   SD": each names its line of heads
     elif at_label and len(texts) == 1 and not _is_prose(texts[0]):
         state.add_label(texts[0])
     else:
