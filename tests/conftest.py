@@ -16,7 +16,7 @@ from typing import Any
 import pytest
 from hypothesis import settings
 
-from kit.builds import MadeOnce, read_once, reading_once, script, without_pages
+from kit.builds import MadeOnce, read_once, reading_once, script, stages_kept, without_pages
 from yellowiron.model.assembly import Assembly
 from yellowiron.model.mechanism import Mechanism
 from yellowiron.report.html.viewer import NOT_BUNDLED
@@ -93,6 +93,13 @@ def no_pages() -> Iterator[None]:
         yield
 
 
+@pytest.fixture(scope="module")
+def kept_stages() -> Iterator[None]:
+    """Builds and sessions of a module take from the run's cache what others like it made of the same inputs."""
+    with stages_kept():
+        yield
+
+
 @pytest.fixture(scope="session")
 def made_once(tmp_path_factory: pytest.TempPathFactory) -> MadeOnce:
     """A folder by its name, filled by the first of this run's workers that asks for it; not to be written to."""
@@ -136,7 +143,8 @@ def five_lines(root: Path, example: Path, made_once: MadeOnce) -> Path:
 
     def fill(folder: Path) -> None:
         folder.mkdir()
-        (folder / "said.txt").write_text(script(root, "five_lines.py", folder / "out"), encoding="utf-8")
+        with stages_kept():
+            (folder / "said.txt").write_text(script(root, "five_lines.py", folder / "out"), encoding="utf-8")
 
     return made_once("five_lines", fill)
 
@@ -159,7 +167,7 @@ def built_loader(example: Path, made_once: MadeOnce) -> Built:
     def fill(folder: Path) -> None:
         from yellowiron.pipeline import build
 
-        with without_pages(), reading_once(made_once, example):
+        with without_pages(), reading_once(made_once, example), stages_kept():
             machine = build("wheel_loader", cad, folder / "out", sheets=[sheet])
         (folder / "mechanism.pickle").write_bytes(pickle.dumps(machine.mechanism))
 

@@ -19,7 +19,7 @@ import pytest
 from kit.builds import MadeOnce, console, read_once, reading_once, without_pages
 from kit.machines.nameless import write_nameless
 
-pytestmark = [pytest.mark.slow, pytest.mark.usefixtures("cad_read_once", "no_pages")]
+pytestmark = [pytest.mark.slow, pytest.mark.usefixtures("cad_read_once", "kept_stages", "no_pages")]
 
 ANGLE_BAR = 0.01
 """Degrees between a built axis and the true one."""
@@ -154,8 +154,9 @@ def test_every_value_has_its_evidence(report: dict[str, Any]) -> None:
 
 
 def test_a_second_run_from_another_folder_gives_the_same_bytes(
-    named: tuple[Path, dict[str, Any]], example: Path, tmp_path: Path
+    named: tuple[Path, dict[str, Any]], example: Path, tmp_path: Path, monkeypatch: pytest.MonkeyPatch
 ) -> None:
+    monkeypatch.setenv("YELLOWIRON_FRESH", "1")
     first = named[0]
     elsewhere = tmp_path / "elsewhere"
     elsewhere.mkdir()

@@ -29,6 +29,14 @@ def without_pages() -> Iterator[None]:
         yield
 
 
+@contextmanager
+def stages_kept() -> Iterator[None]:
+    """Builds inside find, in the run's cache, what others in here made of the same inputs: as a user's do."""
+    with pytest.MonkeyPatch.context() as patch:
+        patch.delenv("YELLOWIRON_FRESH", raising=False)
+        yield
+
+
 def read_once(file: Path, made_once: MadeOnce) -> Any:
     """The assembly in a CAD file that nobody changes, which the first worker that asks for it has read."""
     from yellowiron.cad.read import read_cad

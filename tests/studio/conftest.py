@@ -11,7 +11,9 @@ from yellowiron.studio import Session, Setup
 
 
 @pytest.fixture
-def open_studio(cad_read_once: None, example: Path, tmp_path: Path) -> Iterator[Callable[..., Session]]:
+def open_studio(
+    cad_read_once: None, kept_stages: None, example: Path, tmp_path: Path
+) -> Iterator[Callable[..., Session]]:
     """Opens a session in one folder, again and again; those before are closed."""
     opened: list[Session] = []
 
@@ -27,7 +29,9 @@ def open_studio(cad_read_once: None, example: Path, tmp_path: Path) -> Iterator[
 
 
 @pytest.fixture(scope="module")
-def untouched(cad_read_once: None, example: Path, tmp_path_factory: pytest.TempPathFactory) -> Iterator[Session]:
+def untouched(
+    cad_read_once: None, kept_stages: None, example: Path, tmp_path_factory: pytest.TempPathFactory
+) -> Iterator[Session]:
     """A session in which nobody decides anything, one for all tests of a module."""
     session = Session(
         Setup("wheel_loader", example / "wheel_loader.step", tmp_path_factory.mktemp("untouched") / "machine")

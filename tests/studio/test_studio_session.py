@@ -387,7 +387,12 @@ def test_values_as_a_person_writes_them() -> None:
 
 @pytest.mark.slow
 def test_a_folder_that_has_a_types_name_is_not_taken_for_a_template(
-    cad_read_once: None, no_pages: None, example: Path, tmp_path: Path, monkeypatch: pytest.MonkeyPatch
+    cad_read_once: None,
+    kept_stages: None,
+    no_pages: None,
+    example: Path,
+    tmp_path: Path,
+    monkeypatch: pytest.MonkeyPatch,
 ) -> None:
     """Machines are often built into a folder of their type's name."""
     monkeypatch.chdir(tmp_path)

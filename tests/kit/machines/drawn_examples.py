@@ -75,7 +75,12 @@ def build_example(name: str, drawing: Path, made_once: MadeOnce, *, named: bool,
         if not named:
             build_example(name, drawing, made_once, named=True, sheet=sheet)
             known = pickle.loads((made_once(f"{drawing.name}_named_built", fill) / "completed.pickle").read_bytes())
-        with without_pages(), reading_once(made_once, drawing), _completing(known), pytest.MonkeyPatch.context() as patch:
+        with (
+            without_pages(),
+            reading_once(made_once, drawing),
+            _completing(known),
+            pytest.MonkeyPatch.context() as patch,
+        ):
             if not named:
                 patch.setattr("yellowiron.memory.write", lambda *_, **__: ((), {}, {}))
             machine = build(name, cad, out / "out", sheets=[sheet or drawing / "specifications.pdf"])
