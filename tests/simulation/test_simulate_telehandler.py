@@ -30,8 +30,7 @@ def driven(file: Path) -> DrivingResult:
     return drive(file, engine="mujoco")
 
 
-# The telescope in the other engines is that of three sections, below; in Newton, which steps with MuJoCo's solver, it is
-# all that no other machine has.
+# The telescope in the other engines is that of three sections, below: in Newton it is all that no other machine has.
 @pytest.mark.parametrize(("engine", "actuators"), [("mujoco", None), ("physx", ["steering", "tilt"])])
 def test_full_strokes(file: Path, engine: str, actuators: list[str] | None) -> None:
     _strokes(file, engine, actuators)

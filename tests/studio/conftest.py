@@ -7,6 +7,7 @@ from pathlib import Path
 
 import pytest
 
+from yellowiron import memory
 from yellowiron.studio import Session, Setup
 
 
@@ -14,7 +15,8 @@ from yellowiron.studio import Session, Setup
 def open_studio(
     cad_read_once: None, kept_stages: None, example: Path, tmp_path: Path
 ) -> Iterator[Callable[..., Session]]:
-    """Opens a session in one folder, again and again; those before are closed."""
+    """Opens a session in one folder, again and again; those before are closed. Machines are measured in this process,
+    by the dozen: one of its own takes seconds to start."""
     opened: list[Session] = []
 
     def opening() -> Session:
@@ -23,7 +25,9 @@ def open_studio(
         opened.append(Session(Setup("wheel_loader", example / "wheel_loader.step", tmp_path / "machine"), by="Ann"))
         return opened[-1]
 
-    yield opening
+    with pytest.MonkeyPatch.context() as patch:
+        patch.setattr("yellowiron.studio.session.measured_of", memory.measure)
+        yield opening
     for one in opened:
         one.close()
 
