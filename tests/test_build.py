@@ -16,7 +16,7 @@ from typing import Any
 import numpy as np
 import pytest
 
-from kit.builds import MadeOnce, console, read_once, reading_once, without_pages
+from kit.builds import MadeOnce, console, read_once, reading_once, without_pages, without_usd
 from kit.machines.nameless import write_nameless
 
 pytestmark = [pytest.mark.slow, pytest.mark.usefixtures("cad_read_once", "kept_stages", "no_pages")]
@@ -62,7 +62,7 @@ def nameless(
 ) -> tuple[Path, dict[str, Any]]:
     folder = tmp_path_factory.mktemp("nameless")
     cad = write_nameless(example / "wheel_loader.step", folder / "part.step")
-    with without_pages(), reading_once(made_once, folder):
+    with without_pages(), without_usd(), reading_once(made_once, folder):
         return folder / "machine", build(example, folder / "machine", cad=cad)
 
 
