@@ -89,6 +89,25 @@ def build_example(name: str, drawing: Path, made_once: MadeOnce, *, named: bool,
     return Built(pickle.loads((out / "machine.pickle").read_bytes()), truth_of(drawing))
 
 
+def steered_example(name: str, drawing: Path, made_once: MadeOnce, mode: str) -> Machine:
+    """An example built once a run with one of its steering modes, its parts in the roles of the usual one."""
+    known = build_example(name, drawing, made_once, named=True).machine
+    if mode == "front":
+        return known
+
+    def fill(out: Path) -> None:
+        out.mkdir()
+        with without_pages(), reading_once(made_once, drawing):
+            machine = build(
+                name, drawing / f"{name}.step", out / "out", sheets=[drawing / "specifications.pdf"],
+                settings=[f"steering_mode={mode}"], alignment_file=known.folder / "alignment.json",
+            )  # fmt: skip
+        (out / "machine.pickle").write_bytes(pickle.dumps(machine))
+
+    machine: Machine = pickle.loads((made_once(f"{drawing.name}_{mode}", fill) / "machine.pickle").read_bytes())
+    return machine
+
+
 @contextmanager
 def _completing(known: list[tuple[Mechanism, Mechanism]]) -> Iterator[None]:
     """Builds inside complete no mechanism that is among the `known` (as it is found, as it is completed), but for its
