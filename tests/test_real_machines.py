@@ -19,7 +19,7 @@ import pytest
 
 from kit.builds import console, without_pages, without_usd
 
-pytestmark = [pytest.mark.slow, pytest.mark.usefixtures("cad_read_once")]
+pytestmark = [pytest.mark.slow, pytest.mark.usefixtures("cad_read_once", "kept_stages")]
 
 ZX120 = {
     "link1": "undercarriage", "link2": "upperstructure", "link3": "boom", "link4": "arm", "link5": "bucket",
