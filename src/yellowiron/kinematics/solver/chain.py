@@ -353,7 +353,9 @@ class ClosedChain:
             first, column = self._body.joints[spin.ball]
             w, vector = position[first], position[first + 1 : first + 4]
             gaps[number] = vector @ spin.line
-            rows[number, column : column + 3] = 0.5 * (w * spin.line + np.cross(spin.line, vector))
+            (a, b, c), (x, y, z) = spin.line.tolist(), vector.tolist()
+            across = (b * z - c * y, c * x - a * z, a * y - b * x)  # numpy.cross takes ten times as long
+            rows[number, column : column + 3] = 0.5 * (w * spin.line + across)
         self._gaps = np.concatenate([self._gaps[:loops], gaps])
         self._jacobian = np.concatenate([self._jacobian[:loops], rows])
 
