@@ -59,7 +59,8 @@ class Convex:
     def beyond(self, points: Floats) -> Floats:
         """(n,) metres by which points (n, 3) are outside its farthest plane, negative inside: over a face that is the
         distance, over an edge or a corner less."""
-        return np.asarray((points @ self.planes[:, :3].T + self.planes[:, 3]).max(axis=1), dtype=np.float64)
+        # A row a plane: of rows a point, each as short as there are planes, the largest takes ten times as long.
+        return np.asarray((self.planes[:, :3] @ points.T + self.planes[:, 3:]).max(axis=0), dtype=np.float64)
 
     def shifted(self, by: Floats) -> Convex:
         """The solid moved by (3,) metres."""
@@ -200,7 +201,8 @@ def uncovered(points: Floats, solids: Iterable[Convex], within: float) -> NDArra
         if not len(rows):
             break
         left = points[rows]
-        near = np.flatnonzero(((left > solid.low - within) & (left < solid.high + within)).all(axis=1))
+        inside = (left > solid.low - within) & (left < solid.high + within)
+        near = np.flatnonzero(inside[:, 0] & inside[:, 1] & inside[:, 2])
         open_[rows[near[solid.beyond(left[near]) <= within]]] = False
     return open_
 
