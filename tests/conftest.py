@@ -26,6 +26,7 @@ LONGEST = (
     "test_simulate_excavator", "test_studio_review", "test_build", "test_real_machines", "test_grader_example",
     "test_align_merged", "test_studio_session", "test_simulate_spatial", "test_simulate_backhoe_loader",
     "test_simulate_articulated_dump_truck", "test_simulate_telehandler", "test_simulate_wheeled_excavator",
+    "test_simulate_steering_modes",
     "test_simulate_dozer", "test_report_browser", "test_studio_server", "test_mini_excavator_example",
     "test_studio_page", "test_simulate_hydraulics", "test_simulate_newton", "test_check_mutations",
     "test_forklift_example", "test_simulate_skid_steer", "test_simulate_roller", "test_align_degrade_build",
