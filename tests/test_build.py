@@ -16,10 +16,10 @@ from typing import Any
 import numpy as np
 import pytest
 
-from kit.builds import MadeOnce, console, read_once, reading_once, without_pages
+from kit.builds import MadeOnce, console, read_once, reading_once, without_pages, without_usd
 from kit.machines.nameless import write_nameless
 
-pytestmark = [pytest.mark.slow, pytest.mark.usefixtures("cad_read_once", "no_pages")]
+pytestmark = [pytest.mark.slow, pytest.mark.usefixtures("cad_read_once", "kept_stages", "no_pages")]
 
 ANGLE_BAR = 0.01
 """Degrees between a built axis and the true one."""
@@ -62,7 +62,7 @@ def nameless(
 ) -> tuple[Path, dict[str, Any]]:
     folder = tmp_path_factory.mktemp("nameless")
     cad = write_nameless(example / "wheel_loader.step", folder / "part.step")
-    with without_pages(), reading_once(made_once, folder):
+    with without_pages(), without_usd(), reading_once(made_once, folder):
         return folder / "machine", build(example, folder / "machine", cad=cad)
 
 
@@ -154,8 +154,9 @@ def test_every_value_has_its_evidence(report: dict[str, Any]) -> None:
 
 
 def test_a_second_run_from_another_folder_gives_the_same_bytes(
-    named: tuple[Path, dict[str, Any]], example: Path, tmp_path: Path
+    named: tuple[Path, dict[str, Any]], example: Path, tmp_path: Path, monkeypatch: pytest.MonkeyPatch
 ) -> None:
+    monkeypatch.setenv("YELLOWIRON_FRESH", "1")
     first = named[0]
     elsewhere = tmp_path / "elsewhere"
     elsewhere.mkdir()
@@ -187,7 +188,8 @@ def test_a_person_s_edit_wins_and_survives(named: tuple[Path, dict[str, Any]], e
     command = ("build", "wheel_loader", "--cad", example / "wheel_loader.step", "--out", out,
                "--specs", example / "specifications.pdf")  # fmt: skip
     for more in (("--alignment", edited), ()):
-        outcome = console(*command, *more, cwd=tmp_path)
+        with without_usd():
+            outcome = console(*command, *more, cwd=tmp_path)
         assert outcome.returncode in (0, 1), outcome.stderr
         parts = json.loads((out / "alignment.json").read_text(encoding="utf-8"))["parts"]
         kept = next(p for p in parts if p["part"] == bolt["part"])
@@ -203,10 +205,11 @@ def test_the_filled_joint_template_is_taken_back(
     named: tuple[Path, dict[str, Any]], example: Path, tmp_path: Path
 ) -> None:
     """Without the sheet, the limits that an earlier run filled in still hold."""
-    outcome = console(
-        "build", "wheel_loader", "--cad", example / "wheel_loader.step", "--out", tmp_path / "machine",
-        "--data", named[0] / "joints.filled.json", cwd=tmp_path,
-    )  # fmt: skip
+    with without_usd():
+        outcome = console(
+            "build", "wheel_loader", "--cad", example / "wheel_loader.step", "--out", tmp_path / "machine",
+            "--data", named[0] / "joints.filled.json", cwd=tmp_path,
+        )  # fmt: skip
     assert outcome.returncode in (0, 1), outcome.stderr
     again = json.loads((tmp_path / "machine" / "report.json").read_text(encoding="utf-8"))
     assert again["missing"] == []

@@ -120,24 +120,13 @@ def test_a_robot_builds_with_its_own_axes_and_limits(drawn: Callable[[Assembly],
 
 
 @pytest.mark.slow
-def test_the_example_through_mjcf(loader_assembly: Assembly, made_once: MadeOnce, tmp_path: Path) -> None:
+def test_the_example_through_mjcf(built_loader: Any, made_once: MadeOnce, tmp_path: Path) -> None:
     """Exported as MJCF and read back: every joint agrees, a template from it is sound and builds."""
-    from yellowiron import kinematics, mechanism, usd
     from yellowiron.alignment import discover_declared
     from yellowiron.exporters import export_mjcf
-    from yellowiron.model.rows import expand
-    from yellowiron.model.specification import Specifications
-    from yellowiron.model.template import choose
-    from yellowiron.stages import find_roles
 
-    template = library.load_template("wheel_loader")
-    assembly, alignment = find_roles(loader_assembly, template, Specifications())
-    chosen = expand(choose(template, alignment.choices), alignment.counts)
-    built = mechanism.build_mechanism(assembly, chosen, alignment, Specifications(), name="loader")
-    built = kinematics.complete(kinematics.calibrate(built))
-    (tmp_path / "usd").mkdir()
-    file = usd.write_machine(built, assembly, tmp_path / "usd", name="loader", frame=alignment.frame)[0]
-    robot_file = export_mjcf(built, file, tmp_path / "mjcf")
+    built = built_loader.mechanism
+    robot_file = export_mjcf(built, built_loader.folder / "wheel_loader.usda", tmp_path / "mjcf")
     with reading_once(made_once, robot_file.parent):
         assert discover_declared(cad.read_cad(robot_file)).bodies[0].name == built.root
         new = new_template(robot_file, tmp_path / "new")

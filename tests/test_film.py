@@ -21,7 +21,9 @@ pytestmark = pytest.mark.slow
 
 
 @pytest.fixture(scope="module")
-def machine(cad_read_once: None, example: Path, no_pages: None, tmp_path_factory: pytest.TempPathFactory) -> Any:
+def machine(
+    cad_read_once: None, kept_stages: None, example: Path, no_pages: None, tmp_path_factory: pytest.TempPathFactory
+) -> Any:
     return build("wheel_loader", example / "wheel_loader.step", tmp_path_factory.mktemp("film") / "machine",
                  sheets=[example / "specifications.pdf"])  # fmt: skip
 
@@ -92,7 +94,12 @@ def test_what_it_refuses(machine: Any, tmp_path: Path, monkeypatch: pytest.Monke
 
 
 def test_the_command_draws_no_report(
-    cad_read_once: None, example: Path, tmp_path: Path, small: None, monkeypatch: pytest.MonkeyPatch
+    cad_read_once: None,
+    kept_stages: None,
+    example: Path,
+    tmp_path: Path,
+    small: None,
+    monkeypatch: pytest.MonkeyPatch,
 ) -> None:
     folder = tmp_path / "machine"
     build("wheel_loader", example / "wheel_loader.step", folder, page=False)

@@ -17,9 +17,9 @@ from typing import Any
 import numpy as np
 import pytest
 
-from kit.builds import console, without_pages
+from kit.builds import console, without_pages, without_usd
 
-pytestmark = [pytest.mark.slow, pytest.mark.usefixtures("cad_read_once")]
+pytestmark = [pytest.mark.slow, pytest.mark.usefixtures("cad_read_once", "kept_stages")]
 
 ZX120 = {
     "link1": "undercarriage", "link2": "upperstructure", "link3": "boom", "link4": "arm", "link5": "bucket",
@@ -34,8 +34,11 @@ ZX200 = {
 STROKES = ("Boom Cylinder Stroke=950 mm", "Arm Cylinder Stroke=1100 mm", "Bucket Cylinder Stroke=880 mm")
 
 
-def build(cad: Path, out: Path, *more: str | Path, page: bool = False) -> dict[str, Any]:
-    with contextlib.nullcontext() if page else without_pages():
+def build(cad: Path, out: Path, *more: str | Path, page: bool = False, usd: bool = True) -> dict[str, Any]:
+    with (
+        contextlib.nullcontext() if page else without_pages(),
+        contextlib.nullcontext() if usd else without_usd(),
+    ):
         outcome = console("build", "excavator", "--cad", cad, "--out", out, *more, cwd=out.parent)
     assert outcome.returncode in (0, 1), outcome.stdout + outcome.stderr
     return dict(json.loads((out / "report.json").read_text(encoding="utf-8")))
@@ -122,7 +125,7 @@ def test_zx120_is_whole(zx120: tuple[Path, dict[str, Any]]) -> None:
 def test_zx120_without_names(shared_data: Path, tmp_path: Path) -> None:
     cad = tmp_path / "model.glb"
     names = without_names(shared_data / "zx120" / "zx120.glb", cad)
-    report = build(cad, tmp_path / "out", *[w for s in STROKES for w in ("--set", s)])
+    report = build(cad, tmp_path / "out", *[w for s in STROKES for w in ("--set", s)], usd=False)
     truth = shared_data / "zx120" / "zx120.truth.json"
     check_roles(tmp_path / "out", report, truth, ZX120, names, most=6)
     assert max(angle for angle, _ in compare(report, truth, ZX120).values()) <= 0.5
@@ -164,7 +167,7 @@ def test_zx200_roles(zx200: tuple[Path, dict[str, Any]], shared_data: Path, tmp_
     check_roles(*zx200, truth, ZX200, {}, most=2)
     cad = tmp_path / "model.glb"
     names = without_names(shared_data / "zx200" / "zx200.glb", cad)
-    report = build(cad, tmp_path / "out")
+    report = build(cad, tmp_path / "out", usd=False)
     check_roles(tmp_path / "out", report, truth, ZX200, names, most=6)
 
 

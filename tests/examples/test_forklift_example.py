@@ -13,7 +13,7 @@ import pytest
 from example_drawn import differences
 from example_file import EXAMPLES
 
-from kit.builds import MadeOnce, without_pages
+from kit.builds import MadeOnce, reading_once, without_pages, without_usd
 from kit.machines.drawn_examples import Built, assert_read, assert_ready, build_example
 from kit.machines.forklifts import drawn, truth_of
 from yellowiron.kinematics import ClosedChain
@@ -135,7 +135,7 @@ def test_other_masts_are_told_by_what_is_drawn(kind: str, names: str, made_once:
     folder = drawn(kind, made_once)
     truth = truth_of(folder)
     cad = folder / "forklift.step" if names == "named" else folder / "nameless" / "forklift.step"
-    with without_pages():
+    with without_pages(), without_usd(), reading_once(made_once, folder):
         machine = build("forklift", cad, tmp_path / "out")
     assert machine.alignment.choices["mast"] == kind
     for part, (path, right) in zip(machine.alignment.parts, truth["parts"].items(), strict=True):

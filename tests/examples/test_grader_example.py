@@ -12,7 +12,7 @@ import numpy as np
 import pytest
 from example_file import met_as_drawn, module
 
-from kit.builds import MadeOnce, reading_once, without_pages
+from kit.builds import MadeOnce, reading_once, without_pages, without_usd
 from kit.machines.drawn_examples import (
     Built,
     assert_as_drawn,
@@ -147,7 +147,7 @@ def test_a_drawbar_goes_to_a_bank_cut_and_back_on_its_branch(
     drawing = drawn_example(TYPE, made_once)
 
     def fill(out: Path) -> None:
-        with without_pages(), reading_once(made_once, drawing):
+        with without_pages(), without_usd(), reading_once(made_once, drawing):
             sheets = [drawing / "specifications.pdf"]
             machine = build(TYPE, drawing / "grader.step", out, sheets=sheets, settings=["saddle=right_3"])
         (out / "machine.pickle").write_bytes(pickle.dumps(machine))

@@ -3,7 +3,6 @@ ready, on its outriggers and in road order, with names and without, from surface
 
 from __future__ import annotations
 
-import itertools
 from types import ModuleType
 
 import pytest
@@ -125,6 +124,6 @@ def test_in_road_order_it_is_ready_too(named: bool, made_once: MadeOnce) -> None
 
 
 @pytest.mark.slow
-@pytest.mark.parametrize(("kind", "names"), itertools.product(KINDS, ["", "nameless"]))
-def test_every_part_is_in_its_body_on_triangles(kind: str, names: str, made_once: MadeOnce) -> None:
-    recognised(TYPE, drawn_example(TYPE, made_once, kind), names, "triangles", made_once)
+@pytest.mark.parametrize("kind", KINDS)
+def test_every_part_is_in_its_body_on_triangles_without_names(kind: str, made_once: MadeOnce) -> None:
+    recognised(TYPE, drawn_example(TYPE, made_once, kind), "nameless", "triangles", made_once)

@@ -148,6 +148,6 @@ def test_joints_and_cylinders_are_as_they_are_drawn(built: Built) -> None:
 
 
 @pytest.mark.slow
-@pytest.mark.parametrize(("kind", "names"), itertools.product(KINDS, ["", "nameless"]))
-def test_every_part_is_in_its_body_on_triangles(kind: str, names: str, made_once: MadeOnce) -> None:
-    recognised(TYPE, drawn_example(TYPE, made_once, kind), names, "triangles", made_once)
+@pytest.mark.parametrize("kind", KINDS)
+def test_every_part_is_in_its_body_on_triangles_without_names(kind: str, made_once: MadeOnce) -> None:
+    recognised(TYPE, drawn_example(TYPE, made_once, kind), "nameless", "triangles", made_once)

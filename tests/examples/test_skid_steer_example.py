@@ -14,7 +14,7 @@ from OCP.BRepAlgoAPI import BRepAlgoAPI_Common
 from OCP.BRepGProp import BRepGProp
 from OCP.GProp import GProp_GProps
 
-from kit.builds import MadeOnce, without_pages
+from kit.builds import MadeOnce, reading_once, without_pages, without_usd
 from kit.machines.drawn_examples import (
     Built,
     assert_as_drawn,
@@ -181,7 +181,7 @@ def test_every_part_is_in_its_body(path: str, names: str, surfaces: str, made_on
 @pytest.mark.parametrize("names", ["", "nameless"])
 def test_radial_lift_builds_too(names: str, made_once: MadeOnce, tmp_path: Path) -> None:
     folder = drawn_example("skid_steer", made_once, "radial")
-    with without_pages():
+    with without_pages(), without_usd(), reading_once(made_once, folder):
         machine = build("skid_steer", folder / names / "skid_steer.step", tmp_path / "out")
     mobility = machine.mechanism.mobility
     assert mobility is not None and (mobility.computed, mobility.expected) == (6, 6)

@@ -3,7 +3,6 @@ ready, with and without names, from surfaces and from triangles; with a boom of 
 
 from __future__ import annotations
 
-import itertools
 from types import ModuleType
 
 import numpy as np
@@ -135,6 +134,6 @@ def _with_pins(truth: dict[str, object]) -> dict[str, object]:
 
 
 @pytest.mark.slow
-@pytest.mark.parametrize(("kind", "names"), itertools.product(["two", "three"], ["", "nameless"]))
-def test_every_part_is_in_its_body_on_triangles(kind: str, names: str, made_once: MadeOnce) -> None:
-    recognised(TYPE, drawn_example(TYPE, made_once, kind), names, "triangles", made_once)
+@pytest.mark.parametrize("kind", ["two", "three"])
+def test_every_part_is_in_its_body_on_triangles_without_names(kind: str, made_once: MadeOnce) -> None:
+    recognised(TYPE, drawn_example(TYPE, made_once, kind), "nameless", "triangles", made_once)

@@ -29,6 +29,23 @@ def without_pages() -> Iterator[None]:
         yield
 
 
+@contextmanager
+def without_usd() -> Iterator[None]:
+    """Builds inside write and check no USD file, half of the work: for those whose report and mechanism are looked
+    at."""
+    with pytest.MonkeyPatch.context() as patch:
+        patch.setattr("yellowiron.memory.write", lambda *_, **__: ((), {}, {}))
+        yield
+
+
+@contextmanager
+def stages_kept() -> Iterator[None]:
+    """Builds inside find, in the run's cache, what others in here made of the same inputs: as a user's do."""
+    with pytest.MonkeyPatch.context() as patch:
+        patch.delenv("YELLOWIRON_FRESH", raising=False)
+        yield
+
+
 def read_once(file: Path, made_once: MadeOnce) -> Any:
     """The assembly in a CAD file that nobody changes, which the first worker that asks for it has read."""
     from yellowiron.cad.read import read_cad

@@ -24,7 +24,7 @@ MOST_BYTES = 3_000_000
 
 
 @pytest.fixture(scope="module")
-def machine(cad_read_once: None, example: Path, tmp_path_factory: pytest.TempPathFactory) -> Any:
+def machine(cad_read_once: None, kept_stages: None, example: Path, tmp_path_factory: pytest.TempPathFactory) -> Any:
     """The example, built and driven: what the page was made from."""
     return build(
         "wheel_loader", example / "wheel_loader.step", tmp_path_factory.mktemp("page") / "machine",

@@ -24,7 +24,7 @@ def file(made_once: MadeOnce) -> Path:
 
 @pytest.mark.parametrize(
     ("engine", "actuators"),
-    [("mujoco", ["tilt", "steering"]), ("newton", ["tilt"]), ("physx", ["lift", "tilt", "steering"])],
+    [("mujoco", ["tilt", "steering"]), ("physx", ["lift", "tilt", "steering"])],
 )
 def test_full_strokes_with_the_rated_load(file: Path, engine: str, actuators: list[str]) -> None:
     in_engines.need(engine)

@@ -24,8 +24,8 @@ def file(request: pytest.FixtureRequest, made_once: MadeOnce) -> Path:
     return built_example("roller", made_once, request.param)
 
 
-# Driven wheels in Newton: the wheel loader's, which drives, turns and climbs there.
-@pytest.mark.parametrize(("engine", "actuators"), [("mujoco", None), ("newton", ["steering"]), ("physx", None)])
+# In Newton it bends and drives as the wheel loader does.
+@pytest.mark.parametrize(("engine", "actuators"), [("mujoco", None), ("physx", None)])
 def test_full_strokes(file: Path, engine: str, actuators: list[str] | None) -> None:
     in_engines.need(engine)
     import_engine(engine)  # before a stage opens: its schemas

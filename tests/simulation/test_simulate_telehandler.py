@@ -9,10 +9,9 @@ from pathlib import Path
 import in_engines
 import pytest
 
-from kit.builds import MadeOnce, reading_once, without_pages
-from kit.machines.drawn_examples import built_example, drawn_example
+from kit.builds import MadeOnce
+from kit.machines.drawn_examples import built_example, drawn_example, steered_example
 from yellowiron.kinematics import measure
-from yellowiron.pipeline import build
 from yellowiron.simulation import drive, run_tests, simulate
 from yellowiron.simulation.driving.result import DrivingResult, driving_findings
 from yellowiron.simulation.registry import import_engine
@@ -30,10 +29,8 @@ def driven(file: Path) -> DrivingResult:
     return drive(file, engine="mujoco")
 
 
-# The telescope in the other engines is that of three sections, below.
-@pytest.mark.parametrize(
-    ("engine", "actuators"), [("mujoco", None), ("newton", ["steering"]), ("physx", ["steering", "tilt"])]
-)
+# The telescope in the other engines is that of three sections, below: in Newton it is all that no other machine has.
+@pytest.mark.parametrize(("engine", "actuators"), [("mujoco", None), ("physx", ["steering", "tilt"])])
 def test_full_strokes(file: Path, engine: str, actuators: list[str] | None) -> None:
     _strokes(file, engine, actuators)
 
@@ -65,15 +62,8 @@ def test_it_drives_on_all_wheels_and_steers_with_the_front_ones(driven: DrivingR
     assert list(driving_findings(driven)) == []
 
 
-def test_steered_by_all_wheels_it_turns_in_little_more_than_half(
-    file: Path, driven: DrivingResult, made_once: MadeOnce, tmp_path: Path
-) -> None:
-    folder = drawn_example("telehandler", made_once, "two")
-    cad, sheet, known = folder / "telehandler.step", folder / "specifications.pdf", file.parent / "alignment.json"
-    with without_pages(), reading_once(made_once, folder):
-        machine = build(
-            "telehandler", cad, tmp_path / "out", sheets=(sheet,), settings=("steering_mode=all",), alignment_file=known
-        )
+def test_steered_by_all_wheels_it_turns_in_little_more_than_half(driven: DrivingResult, made_once: MadeOnce) -> None:
+    machine = steered_example("telehandler", drawn_example("telehandler", made_once, "two"), made_once, "all")
     all_ = drive(machine.usd, engine="mujoco")
     assert driven.turning_radius is not None and all_.turning_radius is not None
     # Its four axes do not meet, steered as two wheels want it: where the middle is then, friction decides.

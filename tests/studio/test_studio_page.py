@@ -21,7 +21,9 @@ pytestmark = pytest.mark.slow
 
 
 @pytest.fixture(scope="module")
-def session(cad_read_once: None, example: Path, tmp_path_factory: pytest.TempPathFactory) -> Iterator[Session]:
+def session(
+    cad_read_once: None, kept_stages: None, example: Path, tmp_path_factory: pytest.TempPathFactory
+) -> Iterator[Session]:
     out = tmp_path_factory.mktemp("studio") / "machine"
     opened = Session(Setup("wheel_loader", example / "wheel_loader.step", out))
     yield opened

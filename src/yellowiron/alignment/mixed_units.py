@@ -158,6 +158,7 @@ class _Boxes:
         self._lowest = np.sort(self.low[self.core], axis=0)[:2]
         self._highest = np.sort(self.high[self.core], axis=0)[-2:]
         self.size = _diagonal(self.low[self.core], self.high[self.core])
+        self._out: dict[int, bool] = {}
 
     def guesses(self, i: int, origin: Floats) -> list[_Guess]:
         """In which units a part would be inside the machine; `origin` (3,) is its node's."""
@@ -185,6 +186,11 @@ class _Boxes:
 
     def out(self, i: int) -> bool:
         """True for what can be no part of the machine as it stands: as large as all the rest, or far from it."""
+        if i not in self._out:
+            self._out[i] = self._is_out(i)
+        return self._out[i]
+
+    def _is_out(self, i: int) -> bool:
         if self._giant(i) or not self.core[i]:
             return True
         rest = self.core.copy()
@@ -262,10 +268,9 @@ class _Rest:
         twins = {guess: self._twin(now, guess.ratio) for guess in guesses}
         # About its own origin, or enlarged a little, a part stays in the machine: only what it is like tells.
         guesses = [g for g in guesses if twins[g] or out or (g.ratio >= SURELY and not g.own)]
-        sound = ~np.isin(self._ids, sorted(suspects))
-        if not guesses or (not out and any(sound[k] for k in self._fitting(now))):
+        if not guesses or (not out and any(str(self._ids[k]) not in suspects for k in self._fitting(now))):
             return None
-        floats = out or not any(sound[k] for k in self._touched(now))
+        floats = out or all(str(self._ids[k]) in suspects for k in self._touched(now))
         if not floats:
             guesses = [g for g in guesses if g.ratio >= BY_CHANCE and not g.own]
         ranked: list[tuple[int, int, _Guess, str]] = []
@@ -345,10 +350,11 @@ class _Rest:
     def _twin(self, solid: Solid, ratio: float) -> str | None:
         """A part of the machine that is exactly like a part so many times as large, or its mirror image."""
         count, surface, volume = len(solid.shape.mesh.triangles), ratio**2 * solid.surface, ratio**3 * solid.volume
-        alike = (self._triangles == count) & (np.abs(self._surfaces / surface - 1.0) <= ALIKE)
-        alike &= np.abs(self._volumes - volume) <= 2 * ALIKE * self._volumes
-        alike &= self._ids != solid.part.id
-        return str(self._ids[int(np.argmax(alike))]) if count > PLAIN and alike.any() else None
+        of_count = np.flatnonzero(self._triangles == count) if count > PLAIN else np.zeros(0, dtype=np.intp)
+        alike = np.abs(self._surfaces[of_count] / surface - 1.0) <= ALIKE
+        alike &= np.abs(self._volumes[of_count] - volume) <= 2 * ALIKE * self._volumes[of_count]
+        alike &= self._ids[of_count] != solid.part.id
+        return str(self._ids[of_count[int(np.argmax(alike))]]) if alike.any() else None
 
 
 def _enlarged(part: Part, assembly: Assembly, guess: _Guess) -> tuple[Part, dict[str, Shape]]:

@@ -12,6 +12,7 @@ from collections.abc import Iterator, Mapping, Sequence
 from dataclasses import dataclass
 
 import numpy as np
+from numpy.typing import NDArray
 
 from yellowiron.kinematics.solver.chain import ClosedChain, State
 from yellowiron.kinematics.solver.pose_grid import explore
@@ -90,14 +91,14 @@ class _Body:
         """How deep points (n, 3) are in one of its solids, 0 for those outside."""
         found = np.zeros(len(points))
         low, high = self.box
-        rows = np.flatnonzero(((points > low) & (points < high)).all(axis=1))
+        rows = np.flatnonzero(_between_corners(points, low, high))
         if not len(rows):
             return found
         around = points[rows]
         reached = (self.lows < around.max(axis=0)) & (self.highs > around.min(axis=0))
         for number in np.flatnonzero(reached.all(axis=1)).tolist():
             solid = self.outline.solids[number]
-            near = rows[((around > solid.low) & (around < solid.high)).all(axis=1)]
+            near = rows[_between_corners(around, solid.low, solid.high)]
             if len(near):
                 found[near] = np.maximum(found[near], -solid.beyond(points[near]))
         return found
@@ -111,6 +112,12 @@ class _Body:
             return 0.0
         inside = np.abs(self.wound.around(points[rows])) > _INSIDE
         return float((depths[rows] * inside).max())
+
+
+def _between_corners(points: Floats, low: Floats, high: Floats) -> NDArray[np.bool_]:
+    """Which of points (n, 3) are in the box between two corners (3,)."""
+    inside = (points > low) & (points < high)
+    return np.asarray(inside[:, 0] & inside[:, 1] & inside[:, 2])
 
 
 def meetings(mechanism: Mechanism, outlines: Mapping[str, Outline]) -> tuple[Meeting, ...]:

@@ -44,6 +44,8 @@ _STIFFEST = 200.0
 """… but never more than so many times its damping, 1/s: a fifth of what the step bears."""
 _OWN, _OTHERS, _LOOSE = 13, 25, 27
 """Poses sampled: of a drive's own component, of each other one, and of drives outside of all loops."""
+_TOGETHER = 256
+"""Poses whose mass matrices are inverted together."""
 _MOUNTED = 0.01
 """A root with less of the machine's mass than this is something that it is mounted on, and held."""
 USUAL = 0.95
@@ -214,20 +216,32 @@ def looks(chain: ClosedChain, poses: Iterable[tuple[State, Sequence[str]]], driv
     load = rated_load(chain.mechanism)
     whole = sum(body.mass for body in chain.mechanism.bodies)
     mounted = chain.mechanism.body(chain.mechanism.root).mass < _MOUNTED * whole
+    seen: list[tuple[State, Floats, Sequence[str], list[float], list[float]]] = []
+
+    def looked() -> Iterator[Look]:
+        # What nothing drives gives way as it likes.
+        masses = np.linalg.inv(np.array([whole for _, whole, *_ in seen]))
+        free = np.linalg.inv(masses[:, columns][:, :, columns])
+        for (pose, _, own, moved, weights), one in zip(seen, free, strict=True):
+            yield Look(pose, one, tuple(own), tuple(moved), tuple(weights))
+        seen.clear()
+
     for pose, own in poses:
         try:
             fixed, loose = chain.masses(pose)
         except np.linalg.LinAlgError:  # a dead point
             continue
-        # What nothing drives gives way as it likes.
-        own_masses = np.linalg.inv(fixed if mounted else loose)[np.ix_(columns, columns)]
         moved, weights = [], []
         for name in own:
             column = columns[driven.index(name)]
             more = carried(chain, pose, name, *load) if load is not None else 0.0
             moved.append(float(fixed[column, column]) + more)
             weights.append(weight(chain, pose, name))
-        yield Look(pose, np.linalg.inv(own_masses), tuple(own), tuple(moved), tuple(weights))
+        seen.append((pose, fixed if mounted else loose, own, moved, weights))
+        if len(seen) == _TOGETHER:
+            yield from looked()
+    if seen:
+        yield from looked()
 
 
 def felt_in(driven: tuple[str, ...], seen: Iterable[Look]) -> Felt:

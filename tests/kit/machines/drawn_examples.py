@@ -6,7 +6,8 @@ import json
 import pickle
 import subprocess
 import sys
-from collections.abc import Collection, Mapping
+from collections.abc import Collection, Iterator, Mapping
+from contextlib import contextmanager, nullcontext
 from dataclasses import dataclass, replace
 from pathlib import Path
 from types import ModuleType
@@ -15,11 +16,11 @@ from typing import Any
 import numpy as np
 import pytest
 
-from kit.builds import MadeOnce, read_once, reading_once, without_pages
+from kit.builds import MadeOnce, read_once, reading_once, without_pages, without_usd
 from kit.machines.defects import on_triangles
 from kit.machines.forklifts import truth_of
 from kit.machines.nameless import write_nameless
-from yellowiron import library, specs
+from yellowiron import library, specs, stages
 from yellowiron.alignment.pipeline import align
 from yellowiron.cad.mesh.measures import content_key
 from yellowiron.model.alignment import Alignment
@@ -27,6 +28,7 @@ from yellowiron.model.geometry import Shape
 from yellowiron.model.mechanism import Mechanism
 from yellowiron.model.specification import Specification
 from yellowiron.pipeline import Machine, build
+from yellowiron.support.caching.content import content_of
 
 EXAMPLES = Path(__file__).resolve().parents[3] / "examples"
 PERCENT, DEGREES = 0.3, 0.2
@@ -62,17 +64,80 @@ class Built:
 
 
 def build_example(name: str, drawing: Path, made_once: MadeOnce, *, named: bool, sheet: Path | None = None) -> Built:
-    """An example built once a run from its `drawing` (`drawn_example`), with names or without, and its sheet."""
+    """An example built once a run from its `drawing` (`drawn_example`), with names or without, and its sheet. Without
+    names it writes no USD, which is the named one's, and what its linkages come to is the named one's too, where the
+    mechanism is the same."""
 
     def fill(out: Path) -> None:
         out.mkdir()
         cad = drawing / ("" if named else "nameless") / f"{name}.step"
-        with without_pages(), reading_once(made_once, drawing):
+        known: list[tuple[Mechanism, Mechanism]] = []
+        if not named:
+            build_example(name, drawing, made_once, named=True, sheet=sheet)
+            known = pickle.loads((made_once(f"{drawing.name}_named_built", fill) / "completed.pickle").read_bytes())
+        with (
+            without_pages(),
+            reading_once(made_once, drawing),
+            _completing(known),
+            nullcontext() if named else without_usd(),
+        ):
             machine = build(name, cad, out / "out", sheets=[sheet or drawing / "specifications.pdf"])
+        (out / "completed.pickle").write_bytes(pickle.dumps(known))
         (out / "machine.pickle").write_bytes(pickle.dumps(machine))
 
     out = made_once(f"{drawing.name}_{'named' if named else 'nameless'}_built", fill)
     return Built(pickle.loads((out / "machine.pickle").read_bytes()), truth_of(drawing))
+
+
+def steered_example(name: str, drawing: Path, made_once: MadeOnce, mode: str) -> Machine:
+    """An example built once a run with one of its steering modes, its parts in the roles of the usual one."""
+    known = build_example(name, drawing, made_once, named=True).machine
+    if mode == "front":
+        return known
+
+    def fill(out: Path) -> None:
+        out.mkdir()
+        with without_pages(), reading_once(made_once, drawing):
+            machine = build(
+                name, drawing / f"{name}.step", out / "out", sheets=[drawing / "specifications.pdf"],
+                settings=[f"steering_mode={mode}"], alignment_file=known.folder / "alignment.json",
+            )  # fmt: skip
+        (out / "machine.pickle").write_bytes(pickle.dumps(machine))
+
+    machine: Machine = pickle.loads((made_once(f"{drawing.name}_{mode}", fill) / "machine.pickle").read_bytes())
+    return machine
+
+
+@contextmanager
+def _completing(known: list[tuple[Mechanism, Mechanism]]) -> Iterator[None]:
+    """Builds inside complete no mechanism that is among the `known` (as it is found, as it is completed), but for its
+    parts' names; others are put there."""
+    complete = stages._completed
+
+    def completed(found: Mechanism) -> Mechanism:
+        key = content_of(_plain(found))
+        after = next((after for before, after in known if content_of(_plain(before)) == key), None)
+        if after is None:
+            after = complete(found)
+            known.append((found, after))
+        parts = {body.name: body.parts for body in found.bodies}
+        return replace(after, bodies=tuple(replace(body, parts=parts[body.name]) for body in after.bodies))
+
+    with pytest.MonkeyPatch.context() as patch:
+        patch.setattr(stages, "_completed", completed)
+        yield
+
+
+def _plain(mechanism: Mechanism) -> Mechanism:
+    """It without the names of its parts."""
+    nameless = {b.name: tuple(replace(p, part="", source="") for p in b.parts) for b in mechanism.bodies}
+    found = [replace(j, source={k: v for k, v in j.source.items() if k != "parts"}) for j in mechanism.joints]
+    return replace(
+        mechanism,
+        bodies=tuple(replace(body, parts=nameless[body.name]) for body in mechanism.bodies),
+        joints=tuple(found),
+        sites=tuple(replace(site, source="") for site in mechanism.sites),
+    )
 
 
 def built_example(name: str, made_once: MadeOnce, *arguments: str) -> Path:

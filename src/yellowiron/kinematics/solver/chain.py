@@ -135,6 +135,8 @@ class ClosedChain:
             name for name in self._body.joints if name not in given and name not in self.dependent
         )
         """Tree joints that are neither: nothing drives them and no loop determines them."""
+        self._given = np.array([self._dofs(name)[0] for name in self.independent], dtype=int)
+        self._beside = np.ix_(self._rows, self._given)
         self._sign = self._orientation()
 
     def _dofs(self, joint: str) -> range:
@@ -351,7 +353,9 @@ class ClosedChain:
             first, column = self._body.joints[spin.ball]
             w, vector = position[first], position[first + 1 : first + 4]
             gaps[number] = vector @ spin.line
-            rows[number, column : column + 3] = 0.5 * (w * spin.line + np.cross(spin.line, vector))
+            (a, b, c), (x, y, z) = spin.line.tolist(), vector.tolist()
+            across = (b * z - c * y, c * x - a * z, a * y - b * x)  # numpy.cross takes ten times as long
+            rows[number, column : column + 3] = 0.5 * (w * spin.line + across)
         self._gaps = np.concatenate([self._gaps[:loops], gaps])
         self._jacobian = np.concatenate([self._jacobian[:loops], rows])
 
@@ -444,11 +448,10 @@ class ClosedChain:
         """Velocities of all tree coordinates (nv, independent), metres or radians a second, per unit velocity of each
         independent one in turn, the others held: `tangent` of all at once."""
         jacobian = self._at(state)
-        given = np.array([self._dofs(name)[0] for name in self.independent], dtype=int)
-        velocities = np.zeros((self._model.nv, len(given)))
-        velocities[given, np.arange(len(given))] = 1.0
+        velocities = np.zeros((self._model.nv, len(self._given)))
+        velocities[self._given, np.arange(len(self._given))] = 1.0
         if len(self._rows):
-            velocities[self._columns] = np.linalg.solve(jacobian[self._block], -jacobian[np.ix_(self._rows, given)])
+            velocities[self._columns] = np.linalg.solve(jacobian[self._block], -jacobian[self._beside])
         return velocities
 
     def rate(self, state: State, joint: str, tangent: Floats) -> float:

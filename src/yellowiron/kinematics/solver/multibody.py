@@ -16,6 +16,7 @@ from yellowiron.model.mechanism import Body, Joint, Mechanism
 ARM = 0.5
 """Metres between a cut joint's first and further connection points: turns an angle between two axes into a gap."""
 _SMALLEST_MASS = 1e-9
+_UNIT = np.eye(3)
 _HINT = "Build the machine again, or correct the joints of its template."
 _KIND = {"revolute": "mjJNT_HINGE", "prismatic": "mjJNT_SLIDE", "spherical": "mjJNT_BALL"}
 
@@ -200,19 +201,19 @@ def reduced_masses(model: mujoco.MjModel, data: mujoco.MjData, tangents: Floats)
     (its mass at its centre of mass, its inertia about it).
     """
     mujoco.mj_makeM(model, data)
-    momenta = np.zeros(model.nv)
-    held = np.empty((tangents.shape[1], tangents.shape[1]))
-    for column, tangent in enumerate(tangents.T):
-        mujoco.mj_mulM(model, data, momenta, np.ascontiguousarray(tangent))
-        held[:, column] = tangents.T @ momenta
+    momenta, turns = np.zeros(model.nv), tangents.T
+    held = np.empty((len(turns), len(turns)))
+    for column, tangent in enumerate(np.ascontiguousarray(turns)):
+        mujoco.mj_mulM(model, data, momenta, tangent)
+        held[:, column] = turns @ momenta
     linear, angular = np.zeros((3, model.nv)), np.zeros((3, model.nv))
     mujoco.mj_jacSubtreeCom(model, data, linear, 0)
     mujoco.mj_angmomMat(model, data, angular, 0)
     moved, turned = linear @ tangents, angular @ tangents
-    arms = data.xipos - data.subtree_com[0]
+    arms, masses = data.xipos - data.subtree_com[0], model.body_mass
     axes = data.ximat.reshape(-1, 3, 3)
     inertia = np.einsum("bij,bj,bkj->ik", axes, model.body_inertia, axes)
-    inertia += np.einsum("b,bij->ij", model.body_mass, (arms**2).sum(axis=1)[:, None, None] * np.eye(3))
-    inertia -= np.einsum("b,bi,bj->ij", model.body_mass, arms, arms)
+    inertia += np.einsum("b,bij->ij", masses, (arms**2).sum(axis=1)[:, None, None] * _UNIT)
+    inertia -= np.einsum("b,bi,bj->ij", masses, arms, arms)
     whole = float(model.body_subtreemass[0]) * moved.T @ moved + turned.T @ np.linalg.lstsq(inertia, turned)[0]
     return held, held - whole

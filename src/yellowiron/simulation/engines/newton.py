@@ -61,6 +61,7 @@ class NewtonEngine:
 
     def __init__(self, world: World, setup: Setup) -> None:
         warp.config.quiet = True
+        warp.config.enable_backward = False  # nothing is differentiated: kernels compile in half the time
         self._timestep = setup.timestep
         with warp.ScopedDevice("cpu"), _quiet():
             builder = newton.ModelBuilder(up_axis=newton.Axis.Z)

@@ -53,8 +53,9 @@ def hull(points: Floats) -> Mesh:
     except QhullError:
         points = _thickened(points, axes[-1:])
         made = ConvexHull(points)
-    used = np.unique(made.simplices)
-    triangles = np.searchsorted(used, made.simplices).astype(np.int32)
+    used = np.zeros(len(points), dtype=bool)
+    used[made.simplices] = True
+    triangles = (np.cumsum(used) - 1)[made.simplices].astype(np.int32)
     corners = points[used]
     inside = corners.mean(axis=0)
     a, b, c = (corners[triangles[:, k]] for k in range(3))

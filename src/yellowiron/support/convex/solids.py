@@ -59,7 +59,8 @@ class Convex:
     def beyond(self, points: Floats) -> Floats:
         """(n,) metres by which points (n, 3) are outside its farthest plane, negative inside: over a face that is the
         distance, over an edge or a corner less."""
-        return np.asarray((points @ self.planes[:, :3].T + self.planes[:, 3]).max(axis=1), dtype=np.float64)
+        # A row a plane: of rows a point, each as short as there are planes, the largest takes ten times as long.
+        return np.asarray((self.planes[:, :3] @ points.T + self.planes[:, 3:]).max(axis=0), dtype=np.float64)
 
     def shifted(self, by: Floats) -> Convex:
         """The solid moved by (3,) metres."""
@@ -69,15 +70,7 @@ class Convex:
 
     def surface(self, spacing: float) -> Floats:
         """(n, 3) points on its surface, corners among them, `spacing` metres apart at most (large faces: coarser)."""
-        a, b, c = (self.corners[self.triangles[:, k]] for k in range(3))
-        longest = np.max([np.linalg.norm(p - q, axis=1) for p, q in ((a, b), (b, c), (c, a))], axis=0)
-        parts = np.clip(np.ceil(longest / spacing).astype(int), 1, _MOST)
-        found = [self.corners]
-        for n in np.unique(parts).tolist():
-            rows = [(i, j, n - i - j) for i in range(n + 1) for j in range(n + 1 - i)] if n > 1 else [(1, 1, 1)]
-            weights = np.array(rows) / sum(rows[0])
-            found.append(np.einsum("wk,mkd->mwd", weights, np.stack([a, b, c], axis=1)[parts == n]).reshape(-1, 3))
-        return np.concatenate(found)
+        return _surface(self.mesh, spacing)
 
 
 def convex(points: Floats) -> Convex:
@@ -118,18 +111,41 @@ def _ball_and_box(solid: Convex) -> tuple[float, float]:
     return radius, float((room[along] / normals[along, longest]).min(initial=most))
 
 
+def _surface(solid: Mesh, spacing: float) -> Floats:
+    """`Convex.surface` of one that is a mesh yet."""
+    a, b, c = (solid.points[solid.triangles[:, k]] for k in range(3))
+    longest = np.max([np.linalg.norm(p - q, axis=1) for p, q in ((a, b), (b, c), (c, a))], axis=0)
+    parts = np.clip(np.ceil(longest / spacing).astype(int), 1, _MOST)
+    found = [solid.points]
+    for n in np.unique(parts).tolist():
+        rows = [(i, j, n - i - j) for i in range(n + 1) for j in range(n + 1 - i)] if n > 1 else [(1, 1, 1)]
+        weights = np.array(rows) / sum(rows[0])
+        found.append(np.einsum("wk,mkd->mwd", weights, np.stack([a, b, c], axis=1)[parts == n]).reshape(-1, 3))
+    return np.concatenate(found)
+
+
 def _solid(points: Floats) -> Convex:
-    mesh = hull(points)
+    return _of_hull(hull(points))
+
+
+def _of_hull(mesh: Mesh) -> Convex:
     a, b, c = (mesh.points[mesh.triangles[:, k]] for k in range(3))
-    normals = np.cross(b - a, c - a)
+    normals = _cross(b - a, c - a)
     length = np.linalg.norm(normals, axis=1)
     sound = length > 1e-12 * max(float(length.max(initial=0.0)), 1e-300)
     normals = normals[sound] / length[sound, None]
     offsets = -np.einsum("ij,ij->i", normals, a[sound])
     planes = np.unique(np.column_stack([normals, offsets]).round(9), axis=0)
     middle = mesh.points.mean(axis=0)
-    volume = float(np.einsum("ij,ij->", np.cross(a - middle, b - middle), c - middle)) / 6.0
+    volume = float(np.einsum("ij,ij->", _cross(a - middle, b - middle), c - middle)) / 6.0
     return Convex(mesh.points, mesh.triangles, planes, volume)
+
+
+def _cross(one: Floats, other: Floats) -> Floats:
+    """`numpy.cross` of rows (n, 3), without what it takes to look at them."""
+    a, b, c = one.T
+    x, y, z = other.T
+    return np.stack([b * z - c * y, c * x - a * z, a * y - b * x], axis=1)
 
 
 def outermost(points: Floats) -> NDArray[np.intp]:
@@ -185,7 +201,8 @@ def uncovered(points: Floats, solids: Iterable[Convex], within: float) -> NDArra
         if not len(rows):
             break
         left = points[rows]
-        near = np.flatnonzero(((left > solid.low - within) & (left < solid.high + within)).all(axis=1))
+        inside = (left > solid.low - within) & (left < solid.high + within)
+        near = np.flatnonzero(inside[:, 0] & inside[:, 1] & inside[:, 2])
         open_[rows[near[solid.beyond(left[near]) <= within]]] = False
     return open_
 
@@ -234,18 +251,27 @@ def interpenetrate(one: Convex, other: Convex, depth: float) -> bool:
     return made.status == 0 and made.x is not None and float(made.x[3]) > depth
 
 
-def _away(union: Convex, first: Convex, second: Convex, spacing: float) -> float:
+def _away(union: Mesh, first: Convex, second: Convex, spacing: float) -> float:
     """How far points of a hull's surface are from the nearer of the two that it is of, at most, metres."""
-    points = union.surface(spacing)
+    points = _surface(union, spacing)
     return float(np.minimum(first.beyond(points), second.beyond(points)).max())
 
 
-def merged(solids: Sequence[Convex], within: float) -> list[tuple[Convex, frozenset[int]]]:
+Unions = dict[tuple[Convex, Convex], tuple[Mesh, float]]
+"""Two solids → their hull and, by few points, how far its surface is from them: whoever merges the same ones within
+several tolerances finds them once."""
+
+
+def merged(
+    solids: Sequence[Convex], within: float, unions: Unions | None = None
+) -> list[tuple[Convex, frozenset[int]]]:
     """Fewer solids, each with the indices of those it stands for: two become their hull where no point of its surface
-    is farther than `within` (metres) from one of them, the pair with the least such distance first."""
+    is farther than `within` (metres) from one of them, the pair with the least such distance first. `unions`: what is
+    known of pairs of them, and becomes so."""
+    known: Unions = {} if unions is None else unions
     members = {number: (solid, frozenset([number])) for number, solid in enumerate(solids)}
     boxes = Boxes(solids, most=2 * len(solids))
-    queue: list[tuple[float, int, int, int, Convex]] = []
+    queue: list[tuple[float, int, int, int, Mesh]] = []
     tie = itertools.count()
 
     def price(one: int) -> None:
@@ -255,8 +281,13 @@ def merged(solids: Sequence[Convex], within: float) -> list[tuple[Convex, frozen
             if other >= one:
                 break
             second = members[other][0]
-            union = _solid(np.concatenate([second.corners, first.corners]))
-            away = _away(union, second, first, _ROUGH)  # most are found out by few points
+            if (second, first) in known:
+                union, away = known[second, first]
+            else:
+                union = hull(np.concatenate([second.corners, first.corners]))
+                away = _away(union, second, first, _ROUGH)  # most are found out by few points
+                if one < len(solids):
+                    known[second, first] = union, away
             if away <= within:
                 away = _away(union, second, first, spacing_of(within))
             if away <= within:
@@ -266,8 +297,9 @@ def merged(solids: Sequence[Convex], within: float) -> list[tuple[Convex, frozen
         price(number)
     made = len(solids)
     while queue:
-        _, one, other, _, union = heapq.heappop(queue)
+        _, one, other, _, hull_of_both = heapq.heappop(queue)
         if one in members and other in members:
+            union = _of_hull(hull_of_both)
             stood_for = members.pop(one)[1] | members.pop(other)[1]
             boxes.drop(one)
             boxes.drop(other)

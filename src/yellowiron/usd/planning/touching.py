@@ -26,6 +26,7 @@ from yellowiron.support.convex.pieces import convex_pieces
 from yellowiron.support.convex.solids import (
     Boxes,
     Convex,
+    Unions,
     convex,
     merged,
     outermost,
@@ -122,23 +123,26 @@ def fine_and_light(mechanism: Mechanism, drawn: Pool) -> tuple[Pool, Pool]:
     rounds = sorted(rolling(mechanism))
 
     def make() -> tuple[Pool, Pool]:
-        full = _fine(mechanism, drawn)
-        return full, _light(full, own, frozenset(rounds))
+        unions: Unions = {}
+        full = _fine(mechanism, drawn, unions)
+        return full, _light(full, own, frozenset(rounds), unions)
 
     return kept("colliders", make, joints, own, rounds, drawn)
 
 
-def _fine(mechanism: Mechanism, drawn: Pool) -> Pool:
+def _fine(mechanism: Mechanism, drawn: Pool, unions: Unions) -> Pool:
     left = _without_covered(mechanism, drawn)
-    return {name: _together(left[name], FINE * size_of(solids), round_too=False) for name, solids in drawn.items()}
+    return {
+        name: _together(left[name], FINE * size_of(solids), unions, round_too=False) for name, solids in drawn.items()
+    }
 
 
-def _light(made: Pool, own: int, rounds: frozenset[str]) -> Pool:
+def _light(made: Pool, own: int, rounds: frozenset[str], unions: Unions) -> Pool:
     """`own` colliders are there besides; what rolls (`rounds`) stays round."""
     fewer = made
     for share in COARSE:
         fewer = {
-            name: _simple(solids, share * size_of(solids), round_too=name not in rounds)
+            name: _simple(solids, share * size_of(solids), unions, round_too=name not in rounds)
             for name, solids in made.items()
         }
         if own + sum(map(len, fewer.values())) <= MOST:
@@ -261,19 +265,19 @@ def _is_edge(one: Touching, others: Collection[Touching], within: float) -> bool
 
 
 # ---- fewer ----------------------------------------------------------------------------------------------------------
-def _together(solids: Sequence[Touching], within: float, *, round_too: bool) -> list[Touching]:
+def _together(solids: Sequence[Touching], within: float, unions: Unions, *, round_too: bool) -> list[Touching]:
     """As few as stand for them within a tolerance, of what rubs alike. Round and square ones stay what they are, unless
     `round_too`."""
     made = [] if round_too else [one for one in solids if one.primitive is not None]
     rest = [one for one in solids if round_too or one.primitive is None]
     for rubs in dict.fromkeys(one.rubs for one in rest):
-        made += _merged([one for one in rest if one.rubs == rubs], within)
+        made += _merged([one for one in rest if one.rubs == rubs], within, unions)
     return made
 
 
-def _merged(rest: Sequence[Touching], within: float) -> list[Touching]:
+def _merged(rest: Sequence[Touching], within: float, unions: Unions) -> list[Touching]:
     made = []
-    for solid, members in merged([one.solid for one in rest], within):
+    for solid, members in merged([one.solid for one in rest], within, unions):
         stood_for = sorted((rest[number] for number in members), key=lambda one: -one.solid.volume)
         first = stood_for[0]
         parts = tuple(dict.fromkeys(part for one in stood_for for part in one.parts))
@@ -282,11 +286,11 @@ def _merged(rest: Sequence[Touching], within: float) -> list[Touching]:
     return made
 
 
-def _simple(solids: Sequence[Touching], within: float, *, round_too: bool) -> list[Touching]:
+def _simple(solids: Sequence[Touching], within: float, unions: Unions, *, round_too: bool) -> list[Touching]:
     """A shape in place of a hull reaches down no farther than it but by `EDGE`: else it would lift a machine off the
     ground."""
     made = []
-    for one in _together(solids, within, round_too=round_too):
+    for one in _together(solids, within, unions, round_too=round_too):
         primitive = one.primitive or enclosing(one.solid, within)
         if primitive is None or primitive.surface()[:, 2].min() < one.solid.low[2] - EDGE:
             made.append(one)
