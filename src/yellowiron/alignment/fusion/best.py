@@ -13,8 +13,9 @@ from yellowiron.alignment.fusion.evidence import Evidence
 from yellowiron.alignment.fusion.judge import Field, field_of, score_of, weighed, weights
 from yellowiron.alignment.fusion.pieces import largeness
 from yellowiron.alignment.fusion.played import drawn_bodies, lacks
-from yellowiron.alignment.fusion.votes import Votes
+from yellowiron.alignment.fusion.votes import BARS, Votes
 from yellowiron.model.template import Template
+from yellowiron.support.caching.remembered import remembered
 
 CLEAR_LEAD = 12.0
 """A small piece whose body is better than any other by less than this goes with what it touches."""
@@ -48,13 +49,46 @@ def field_of_leading(evidence: Evidence, votes: Votes, resolved: Template) -> Fi
     return field_of(told, evidence.between, resolved, weights(), out_of_line(pieces), largeness(pieces))
 
 
-def labels_in(field: Field, other: Best, leading: Sequence[int]) -> np.ndarray:
-    """Another variant's labels as those of a field of the `leading` pieces: of the same bodies, or of none, as are
-    pieces that it did not have."""
+def labels_in(
+    field: Field, other: Best, leading: Sequence[int], standing: Mapping[str, str] | None = None
+) -> np.ndarray:
+    """Another variant's labels as those of a field of the `leading` pieces: of the same bodies, of those that are
+    `standing` for them, or of none, as are pieces that it did not have."""
     place = {body: n for n, body in enumerate(field.bodies)}
-    told = [place.get(body, len(place)) for body in other.field.bodies]
+    told = [place.get((standing or {}).get(body, body), len(place)) for body in other.field.bodies]
     labels = dict(zip(other.leading, np.array([*told, len(place)])[other.labels].tolist(), strict=True))
     return np.array([labels.get(k, len(place)) for k in leading], dtype=np.int64)
+
+
+@remembered
+def standing_for(other: Template, own: Template) -> Mapping[str, str]:
+    """Body of another variant that a variant does not have → the body that stands for it there: the next one outwards
+    (a second boom's is the arm), and between bodies that two cylinders' hinges join, the same half of the other one.
+    What would be a body too far in along a chain is put right by that."""
+    mine = {r.name: r.kind for r in own.roles if r.rigid}
+    extra = [r for r in other.roles if r.rigid and r.name not in mine]
+    pairs = [other.bodies_of(j) for j in other.joints if j.type != "prismatic"]
+    found: dict[str, str] = {}
+    for role in extra:
+        beside = sorted({str(b) for pair in pairs if role.name in pair for b in pair} & mine.keys())
+        outer = [b for b in beside if mine[b] == role.kind and other.depth(b) > other.depth(role.name)]
+        if role.kind not in BARS and outer:
+            found[role.name] = outer[0]
+    held = {_between(own, name): name for name, kind in reversed(mine.items()) if kind in BARS}
+    for role in extra:
+        ends = _between(other, role.name) if role.kind in BARS else ("", frozenset())
+        there = (ends[0], frozenset(found.get(b, b) for b in ends[1]))
+        if there in held:
+            found[role.name] = held[there]
+    return found
+
+
+def _between(template: Template, half: str) -> tuple[str, frozenset[str]]:
+    """Which half of a hydraulic cylinder a body is, and the bodies that the cylinder is hinged on."""
+    pairs = [(j.type, {str(b) for b in template.bodies_of(j)}) for j in template.joints]
+    halves = {b for kind, pair in pairs if kind == "prismatic" and half in pair for b in pair} | {half}
+    ends = {b for kind, pair in pairs if kind != "prismatic" and pair & halves for b in pair} - halves
+    return str(template.role(half).kind), frozenset(ends)
 
 
 def drawn(evidence: Evidence, bodies: Sequence[str], labels: np.ndarray, template: Template) -> set[str]:
