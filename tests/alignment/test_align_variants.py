@@ -11,6 +11,7 @@ import pytest
 
 from yellowiron.alignment.fusion import evidence as known
 from yellowiron.alignment.fusion import trust
+from yellowiron.alignment.fusion.best import standing_for
 from yellowiron.alignment.fusion.bonds import Bond
 from yellowiron.alignment.fusion.judge import weights
 from yellowiron.alignment.fusion.played import lacks
@@ -129,3 +130,18 @@ def test_the_name_of_a_mesh_counts_less_for_its_solids_and_least_for_its_bars(
     assert votes == [{"boom": {}}] * 5  # what is not drawn is nothing's
     assert heard == pytest.approx([0.8, 0.8 * trust.OF_SOLID, 0.8, 0.8 * trust.OF_BAR, 0.8 * trust.OF_CARRIER])
     assert trust.OF_BAR < trust.OF_SOLID < 1.0
+
+
+def test_what_a_variant_has_more_stands_for_the_next_body_outwards(open_template: Template) -> None:
+    """A public excavator's arm and bucket had been an adjustable boom and an arm: without that boom the same labels are
+    the machine, one body farther in."""
+    chosen = {"boom_cylinders": "twin", "blade": "none"}
+    mono, two = (choose(open_template, {**chosen, "boom_type": kind}) for kind in ("mono", "two_piece"))
+    assert standing_for(two, mono) == {
+        "adjust_boom": "arm", "adjust_cylinder_barrel": "arm_cylinder_barrel", "adjust_piston_rod": "arm_piston_rod",
+    }  # fmt: skip
+    assert standing_for(mono, two) == {}
+    single = choose(open_template, {"boom_cylinders": "single", "boom_type": "mono", "blade": "none"})
+    twins = standing_for(mono, single)
+    assert twins["boom_cylinder_barrel_l"] == twins["boom_cylinder_barrel_r"] == "boom_cylinder_barrel"
+    assert standing_for(single, mono)["boom_piston_rod"] == "boom_piston_rod_l"

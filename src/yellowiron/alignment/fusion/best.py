@@ -13,7 +13,7 @@ from yellowiron.alignment.fusion.evidence import Evidence
 from yellowiron.alignment.fusion.judge import Field, field_of, score_of, weighed, weights
 from yellowiron.alignment.fusion.pieces import largeness
 from yellowiron.alignment.fusion.played import drawn_bodies, lacks
-from yellowiron.alignment.fusion.votes import BARS, Votes
+from yellowiron.alignment.fusion.votes import BARS, Votes, joints_apart
 from yellowiron.model.template import Template
 from yellowiron.support.caching.remembered import remembered
 
@@ -68,10 +68,13 @@ def standing_for(other: Template, own: Template) -> Mapping[str, str]:
     mine = {r.name: r.kind for r in own.roles if r.rigid}
     extra = [r for r in other.roles if r.rigid and r.name not in mine]
     pairs = [other.bodies_of(j) for j in other.joints if j.type != "prismatic"]
+    apart = joints_apart(other)
     found: dict[str, str] = {}
     for role in extra:
         beside = sorted({str(b) for pair in pairs if role.name in pair for b in pair} & mine.keys())
-        outer = [b for b in beside if mine[b] == role.kind and other.depth(b) > other.depth(role.name)]
+        outer = [
+            b for b in beside if mine[b] == role.kind and apart.get((other.root, b), 0) > apart[other.root, role.name]
+        ]
         if role.kind not in BARS and outer:
             found[role.name] = outer[0]
     held = {_between(own, name): name for name, kind in reversed(mine.items()) if kind in BARS}
