@@ -132,16 +132,15 @@ def test_the_name_of_a_mesh_counts_less_for_its_solids_and_least_for_its_bars(
     assert trust.OF_BAR < trust.OF_SOLID < 1.0
 
 
-def test_what_a_variant_has_more_stands_for_the_next_body_outwards(open_template: Template) -> None:
-    """A public excavator's arm and bucket had been an adjustable boom and an arm: without that boom the same labels are
-    the machine, one body farther in."""
-    chosen = {"boom_cylinders": "twin", "blade": "none"}
-    mono, two = (choose(open_template, {**chosen, "boom_type": kind}) for kind in ("mono", "two_piece"))
-    assert standing_for(two, mono) == {
-        "adjust_boom": "arm", "adjust_cylinder_barrel": "arm_cylinder_barrel", "adjust_piston_rod": "arm_piston_rod",
+def test_a_single_cylinder_stands_for_twins_and_the_left_one_for_it(open_template: Template) -> None:
+    """Labels of the one variant were none of the other's, and whichever was annealed the better was the machine."""
+    chosen = {"boom_type": "two_piece", "blade": "none"}
+    twin, single = (choose(open_template, {**chosen, "boom_cylinders": kind}) for kind in ("twin", "single"))
+    assert standing_for(twin, single) == {
+        f"boom_{half}_{side}": f"boom_{half}" for half in ("cylinder_barrel", "piston_rod") for side in "lr"
+    }
+    assert standing_for(single, twin) == {
+        "boom_cylinder_barrel": "boom_cylinder_barrel_l", "boom_piston_rod": "boom_piston_rod_l",
     }  # fmt: skip
-    assert standing_for(mono, two) == {}
-    single = choose(open_template, {"boom_cylinders": "single", "boom_type": "mono", "blade": "none"})
-    twins = standing_for(mono, single)
-    assert twins["boom_cylinder_barrel_l"] == twins["boom_cylinder_barrel_r"] == "boom_cylinder_barrel"
-    assert standing_for(single, mono)["boom_piston_rod"] == "boom_piston_rod_l"
+    mono = choose(open_template, {**chosen, "boom_type": "mono", "boom_cylinders": "twin"})
+    assert standing_for(mono, twin) == standing_for(twin, mono) == {}

@@ -13,7 +13,7 @@ from yellowiron.alignment.fusion.evidence import Evidence
 from yellowiron.alignment.fusion.judge import Field, field_of, score_of, weighed, weights
 from yellowiron.alignment.fusion.pieces import largeness
 from yellowiron.alignment.fusion.played import drawn_bodies, lacks
-from yellowiron.alignment.fusion.votes import BARS, Votes, joints_apart
+from yellowiron.alignment.fusion.votes import BARS, Votes
 from yellowiron.model.template import Template
 from yellowiron.support.caching.remembered import remembered
 
@@ -62,28 +62,12 @@ def labels_in(
 
 @remembered
 def standing_for(other: Template, own: Template) -> Mapping[str, str]:
-    """Body of another variant that a variant does not have → the body that stands for it there: the next one outwards
-    (a second boom's is the arm), and between bodies that two cylinders' hinges join, the same half of the other one.
-    What would be a body too far in along a chain is put right by that."""
-    mine = {r.name: r.kind for r in own.roles if r.rigid}
-    extra = [r for r in other.roles if r.rigid and r.name not in mine]
-    pairs = [other.bodies_of(j) for j in other.joints if j.type != "prismatic"]
-    apart = joints_apart(other)
-    found: dict[str, str] = {}
-    for role in extra:
-        beside = sorted({str(b) for pair in pairs if role.name in pair for b in pair} & mine.keys())
-        outer = [
-            b for b in beside if mine[b] == role.kind and apart.get((other.root, b), 0) > apart[other.root, role.name]
-        ]
-        if role.kind not in BARS and outer:
-            found[role.name] = outer[0]
-    held = {_between(own, name): name for name, kind in reversed(mine.items()) if kind in BARS}
-    for role in extra:
-        ends = _between(other, role.name) if role.kind in BARS else ("", frozenset())
-        there = (ends[0], frozenset(found.get(b, b) for b in ends[1]))
-        if there in held:
-            found[role.name] = held[there]
-    return found
+    """Half of a hydraulic cylinder that another variant has and a variant has not → that of the variant's cylinder
+    which is hinged on the same two bodies: a single one's for either of twins, the left twin's for a single one."""
+    halves = {r.name: r.kind for r in own.roles if r.rigid and r.kind in BARS}
+    held = {_between(own, name): name for name in reversed(halves)}
+    extra = [r.name for r in other.roles if r.rigid and r.kind in BARS and r.name not in halves]
+    return {name: held[ends] for name in extra if (ends := _between(other, name)) in held}
 
 
 def _between(template: Template, half: str) -> tuple[str, frozenset[str]]:

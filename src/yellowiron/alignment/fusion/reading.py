@@ -201,9 +201,8 @@ def _said(evidence: Evidence, votes: Votes, bodies: Sequence[str], labels: np.nd
 
 def _by_any_labels(best: Best, others: Sequence[Best], evidence: Evidence) -> Best:
     """A variant with its own labels, or with those of another one where it scores better by them: annealing does not
-    know what a body costs that nothing plays, and may leave one out that another variant has. A variant with a body
-    more may have the machine one body too far out; without it, what stands for that is where it should be, once the
-    labels are mended a little."""
+    know what a body costs that nothing plays, and may leave one out that another variant has. What one variant has a
+    single hydraulic cylinder of, the other has twins of: such labels are mended a little."""
     field, leading = best.field, evidence.leading
 
     def scored(labels: np.ndarray) -> float:
