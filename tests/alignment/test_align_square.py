@@ -66,14 +66,16 @@ def test_a_machine_askew_is_turned_to_stand_square(yaw: float, quarter: int, mor
     """About its own upright by any angle, whichever axis of the file that is; and about anything."""
     upright = quarters()[quarter] @ about((0.0, 0.0, 1.0), yaw)
     anyhow = about((1.0, 2.0, 3.0), more) @ upright
-    for rotation in (upright, anyhow):
+    for rotation, near in ((upright, 0.05), (anyhow, 0.1)):
         found = square_to(turned(machine(), rotation))
         if found is None:
             # Less than the faces' own tolerance, or square by chance.
             assert off(rotation, np.eye(3)) < 4.5
-        else:
-            assert off(found @ rotation, np.eye(3)) < 0.05
-            assert np.allclose(found @ found.T, np.eye(3), atol=1e-12) and np.linalg.det(found) > 0.0
+            continue
+        assert np.allclose(found @ found.T, np.eye(3), atol=1e-12) and np.linalg.det(found) > 0.0
+        # What leans by less than its faces are told apart by may go on leaning.
+        lies = max(abs(float(v)) for v in (rotation @ np.eye(3)).ravel()) > np.cos(np.radians(4.5))
+        assert off(found @ rotation, np.eye(3)) < (4.5 if lies else near)
 
 
 def test_raised_arms_do_not_turn_the_machine() -> None:

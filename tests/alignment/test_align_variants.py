@@ -11,6 +11,7 @@ import pytest
 
 from yellowiron.alignment.fusion import evidence as known
 from yellowiron.alignment.fusion import trust
+from yellowiron.alignment.fusion.best import standing_for
 from yellowiron.alignment.fusion.bonds import Bond
 from yellowiron.alignment.fusion.judge import weights
 from yellowiron.alignment.fusion.played import lacks
@@ -129,3 +130,17 @@ def test_the_name_of_a_mesh_counts_less_for_its_solids_and_least_for_its_bars(
     assert votes == [{"boom": {}}] * 5  # what is not drawn is nothing's
     assert heard == pytest.approx([0.8, 0.8 * trust.OF_SOLID, 0.8, 0.8 * trust.OF_BAR, 0.8 * trust.OF_CARRIER])
     assert trust.OF_BAR < trust.OF_SOLID < 1.0
+
+
+def test_a_single_cylinder_stands_for_twins_and_the_left_one_for_it(open_template: Template) -> None:
+    """Labels of the one variant were none of the other's, and whichever was annealed the better was the machine."""
+    chosen = {"boom_type": "two_piece", "blade": "none"}
+    twin, single = (choose(open_template, {**chosen, "boom_cylinders": kind}) for kind in ("twin", "single"))
+    assert standing_for(twin, single) == {
+        f"boom_{half}_{side}": f"boom_{half}" for half in ("cylinder_barrel", "piston_rod") for side in "lr"
+    }
+    assert standing_for(single, twin) == {
+        "boom_cylinder_barrel": "boom_cylinder_barrel_l", "boom_piston_rod": "boom_piston_rod_l",
+    }  # fmt: skip
+    mono = choose(open_template, {**chosen, "boom_type": "mono", "boom_cylinders": "twin"})
+    assert standing_for(mono, twin) == standing_for(twin, mono) == {}

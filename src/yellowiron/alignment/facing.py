@@ -27,8 +27,8 @@ class Facing:
 
     def turned(self, rotation: Floats) -> Facing:
         """The same in a frame to which a rotation (3, 3) takes the file's."""
-        ways = (None if way is None else triple(rotation @ np.array(way)) for way in (self.forward, self.up))
-        return Facing(*ways, square=rotation)
+        forward, up = (None if way is None else triple(rotation @ np.array(way)) for way in (self.forward, self.up))
+        return Facing(forward, up, square=rotation)
 
     def obeyed(self, rotation: Floats) -> Floats:
         """A rotation (3, 3), rows forward, left, up in the CAD file's frame, turned to what is said: by quarters where

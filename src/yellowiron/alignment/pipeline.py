@@ -27,6 +27,7 @@ import numpy as np
 from yellowiron.alignment.assignment.answer import (
     Answer,
     drawn_share,
+    found_joints,
     held_share,
     is_whole,
     rivals_of,
@@ -175,7 +176,7 @@ def align(
         if held and judged.trust >= HEARD and same >= AGREED and spoken >= SPOKEN and any(named):
             # Two readings that agree are one: it is no other machine that the contacts found.
             strained, agreement, told_so, judged = False, max(agreement, judged.trust), judged.answer, None
-    if judged is not None and (not explained or judged.goes_before(held=held, named=any(named))):
+    if judged is not None and (not explained or judged.goes_before(answer, held=held, named=any(named))):
         answer, frame, agreement = judged.answer, judged.frame, judged.trust
         observation, scores = wide, named
     else:
@@ -396,13 +397,16 @@ class _Judged:
     score: float
     contacts: float
 
-    def goes_before(self, *, held: bool, named: bool) -> bool:
+    def goes_before(self, contacts: Answer, *, held: bool, named: bool) -> bool:
         """Whether it goes before contacts that explain what is drawn. Where these found most of the type's joints
         (`held`), names are heard if they explain who is beside whom; where they found a part of a machine, a clearly
-        better reading is, and a much better one where nothing is `named`."""
+        better reading is, and where nothing is `named` one that finds more joints for that, or is much better."""
         if held:
             return self.trust >= HEARD
-        return self.score - self.contacts >= BETTER if named else self.contacts < FAR_BETTER * self.score
+        more = named or len(found_joints(self.answer)) > len(found_joints(contacts))
+        return (more and self.score - self.contacts >= BETTER) or (
+            not named and self.contacts < FAR_BETTER * self.score
+        )
 
 
 def _framed(

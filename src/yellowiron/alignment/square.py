@@ -35,8 +35,11 @@ NEARER = (4.0, 2.0, 1.0, 0.5)
 """Degrees: what is slightly bent or tapered looks along no axis."""
 LARGEST = 20_000
 """So many of the largest faces are looked at: what is round has small ones."""
-KEPT = 0.999
-"""An axis of the file that is one of the other frame, too (2.6°)."""
+EXACTLY = np.sin(np.radians(0.6))
+"""… and a direction and an axis of the file that is an axis of the machine's."""
+TILTED = 3.0
+"""A frame without any of the file's axes has more than so many times as much of the surface as one with one of them: of
+a loader's work equipment 2.5, the boom's and the bucket's faces beside what looks across."""
 LATTICE = 400
 """Directions all over half a sphere, 7° from each other."""
 
@@ -62,15 +65,20 @@ def square_to(assembly: Assembly) -> Floats | None:
     def along(axes: Floats) -> float:
         return float(areas[(np.abs(normals @ axes.T) > ALONG).any(axis=1)].sum())
 
-    own = along(np.eye(3))
-    frames = list(_frames(_looked_in(normals, areas)))
-    best = max(frames, key=along, default=np.eye(3))
+    ways, own = _looked_in(normals, areas), along(np.eye(3))
+    # One axis of the file is nearly always the machine's, or nearly so, mostly its upright.
+    upright = [*np.eye(3), *(way for way in ways if np.abs(way).max() > np.cos(np.arcsin(ACROSS)))]
+    kept = max(_frames(upright, ways, EXACTLY), key=along, default=np.eye(3))
+    any_one = max(_frames(ways, ways, ACROSS), key=along, default=np.eye(3))
+    tilted = along(any_one) > TILTED * max(along(kept), own)
+    best = any_one if tilted else kept
     if along(best) <= MORE * own:
         return None
-    best = _drawn_to(best, normals, areas)
-    rotation = np.asarray(max((q @ best for q in quarters()), key=lambda turn: round(float(np.trace(turn)), 9)))
-    kept = np.diag(rotation) > KEPT
-    return None if kept.any() and kept[_most_even(spread_over(corners), rotation)] else rotation
+    drawn_to = _drawn_to(best, normals, areas)
+    best = drawn_to if tilted else next(_frames([best[0]], [drawn_to[1]], ACROSS))
+    if not tilted and _most_even(spread_over(corners), best) == 0:
+        return None
+    return np.asarray(max((q @ best for q in quarters()), key=lambda turn: round(float(np.trace(turn)), 9)))
 
 
 def turned(assembly: Assembly, rotation: Floats) -> Assembly:
@@ -128,10 +136,10 @@ def _mean(way: Floats, normals: Floats, areas: Floats, alike: NDArray[np.bool_])
     return unit(total) if np.linalg.norm(total) > 0.0 else way
 
 
-def _frames(ways: Sequence[Floats]) -> Iterator[Floats]:
-    """The frames (3, 3) that two directions across each other give, the first of them exact."""
-    for one, other in itertools.permutations(ways, 2):
-        if abs(float(one @ other)) < ACROSS:
+def _frames(ones: Sequence[Floats], others: Sequence[Floats], across: float) -> Iterator[Floats]:
+    """The frames (3, 3) that two directions give whose cosine is less, the first of them exact."""
+    for one, other in itertools.product(ones, others):
+        if abs(float(one @ other)) < across:
             second = unit(other - float(other @ one) * one)
             yield np.array([one, second, np.cross(one, second)])
 

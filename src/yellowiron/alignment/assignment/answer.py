@@ -86,10 +86,16 @@ def open_choices(
     return {name: tuple(sorted(others)) for name, others in sorted(found.items()) if others}
 
 
+def found_joints(answer: Answer) -> set[str]:
+    """The hinges and slides of its template that an answer has found."""
+    joints = {j.name for j in answer.template.joints if j.type in MOVING}
+    return joints & {*answer.solution.hinge_of, *answer.solution.slide_of}
+
+
 def held_share(answer: Answer) -> float:
     """The share of the hinges and slides of its template that an answer has found, 0 to 1."""
     joints = {j.name for j in answer.template.joints if j.type in MOVING}
-    return len(joints & {*answer.solution.hinge_of, *answer.solution.slide_of}) / len(joints) if joints else 1.0
+    return len(found_joints(answer)) / len(joints) if joints else 1.0
 
 
 def shows_what_is_special(answer: Answer, template: Template) -> bool:

@@ -52,7 +52,7 @@ def whole(said: Mapping[str, GivenValue], template: Template) -> Whole:
                 f"'{name}={value.text}' says nothing of a machine", where=_WHERE,
                 hint="Write forward=-x, up=z, a variant with its choice, or a role with =absent, as in '*_pin=absent'.",
             )  # fmt: skip
-    return Whole(choices, absent, Facing(**ways))
+    return Whole(choices, absent, Facing(ways.get("forward"), ways.get("up")))
 
 
 def parse_machine(texts: Sequence[str], template: Template, signature: Signature = UNSIGNED) -> dict[str, GivenValue]:

@@ -13,8 +13,9 @@ from yellowiron.alignment.fusion.evidence import Evidence
 from yellowiron.alignment.fusion.judge import Field, field_of, score_of, weighed, weights
 from yellowiron.alignment.fusion.pieces import largeness
 from yellowiron.alignment.fusion.played import drawn_bodies, lacks
-from yellowiron.alignment.fusion.votes import Votes
+from yellowiron.alignment.fusion.votes import BARS, Votes
 from yellowiron.model.template import Template
+from yellowiron.support.caching.remembered import remembered
 
 CLEAR_LEAD = 12.0
 """A small piece whose body is better than any other by less than this goes with what it touches."""
@@ -48,13 +49,33 @@ def field_of_leading(evidence: Evidence, votes: Votes, resolved: Template) -> Fi
     return field_of(told, evidence.between, resolved, weights(), out_of_line(pieces), largeness(pieces))
 
 
-def labels_in(field: Field, other: Best, leading: Sequence[int]) -> np.ndarray:
-    """Another variant's labels as those of a field of the `leading` pieces: of the same bodies, or of none, as are
-    pieces that it did not have."""
+def labels_in(
+    field: Field, other: Best, leading: Sequence[int], standing: Mapping[str, str] | None = None
+) -> np.ndarray:
+    """Another variant's labels as those of a field of the `leading` pieces: of the same bodies, of those that are
+    `standing` for them, or of none, as are pieces that it did not have."""
     place = {body: n for n, body in enumerate(field.bodies)}
-    told = [place.get(body, len(place)) for body in other.field.bodies]
+    told = [place.get((standing or {}).get(body, body), len(place)) for body in other.field.bodies]
     labels = dict(zip(other.leading, np.array([*told, len(place)])[other.labels].tolist(), strict=True))
     return np.array([labels.get(k, len(place)) for k in leading], dtype=np.int64)
+
+
+@remembered
+def standing_for(other: Template, own: Template) -> Mapping[str, str]:
+    """Half of a hydraulic cylinder that another variant has and a variant has not → that of the variant's cylinder
+    which is hinged on the same two bodies: a single one's for either of twins, the left twin's for a single one."""
+    halves = {r.name: r.kind for r in own.roles if r.rigid and r.kind in BARS}
+    held = {_between(own, name): name for name in reversed(halves)}
+    extra = [r.name for r in other.roles if r.rigid and r.kind in BARS and r.name not in halves]
+    return {name: held[ends] for name in extra if (ends := _between(other, name)) in held}
+
+
+def _between(template: Template, half: str) -> tuple[str, frozenset[str]]:
+    """Which half of a hydraulic cylinder a body is, and the bodies that the cylinder is hinged on."""
+    pairs = [(j.type, {str(b) for b in template.bodies_of(j)}) for j in template.joints]
+    halves = {b for kind, pair in pairs if kind == "prismatic" and half in pair for b in pair} | {half}
+    ends = {b for kind, pair in pairs if kind != "prismatic" and pair & halves for b in pair} - halves
+    return str(template.role(half).kind), frozenset(ends)
 
 
 def drawn(evidence: Evidence, bodies: Sequence[str], labels: np.ndarray, template: Template) -> set[str]:

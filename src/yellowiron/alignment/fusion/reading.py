@@ -15,7 +15,7 @@ from yellowiron.alignment.assignment.sides import twin_role
 from yellowiron.alignment.facing import UNTOLD, Facing
 from yellowiron.alignment.features.solids import Solid
 from yellowiron.alignment.fusion.annealing import CHAINS, HOT, SWEEPS, WARM, WARM_UP, against, labelled, leads
-from yellowiron.alignment.fusion.best import CLEAR_LEAD, Best, field_of_leading, labels_in, lacking
+from yellowiron.alignment.fusion.best import CLEAR_LEAD, Best, field_of_leading, labels_in, lacking, standing_for
 from yellowiron.alignment.fusion.bonds import Bond, out_of_line
 from yellowiron.alignment.fusion.evidence import Evidence, across, evidence_of, ways_of
 from yellowiron.alignment.fusion.interposed import interposed
@@ -55,6 +55,8 @@ BESIDE = 0.05
 """What its name alone gives to a body is no farther from it, in machine sizes."""
 AS_GOOD = 12.0
 """A variant by which a machine is judged less well by no more than this could as well be the one."""
+COOL = 4.0
+"""A variant's labels are mended from this temperature where they are another one's, with bodies that stand for its."""
 BY_OTHERS = 1.0
 """… and takes over another one's labels where these are better by more than this."""
 
@@ -199,14 +201,21 @@ def _said(evidence: Evidence, votes: Votes, bodies: Sequence[str], labels: np.nd
 
 def _by_any_labels(best: Best, others: Sequence[Best], evidence: Evidence) -> Best:
     """A variant with its own labels, or with those of another one where it scores better by them: annealing does not
-    know what a body costs that nothing plays, and may leave one out that another variant has."""
-    told = [labels_in(best.field, other, evidence.leading) for other in others if other is not best]
-    scored = [
-        (score_of(best.field, labels) + lacking(evidence, best.field.bodies, labels, best.template), n)
-        for n, labels in enumerate(told)
-    ]
-    score, n = max(scored, key=lambda one: (one[0], -one[1]), default=(best.score, -1))
-    return replace(best, score=score, labels=told[n]) if score > best.score + BY_OTHERS else best
+    know what a body costs that nothing plays, and may leave one out that another variant has. What one variant has a
+    single hydraulic cylinder of, the other has twins of: such labels are mended a little."""
+    field, leading = best.field, evidence.leading
+
+    def scored(labels: np.ndarray) -> float:
+        return score_of(field, labels) + lacking(evidence, field.bodies, labels, best.template)
+
+    told = [labels_in(field, other, leading) for other in others if other is not best]
+    for other in others:
+        if standing := standing_for(other.template, best.template):
+            told.append(
+                labelled(field, labels_in(field, other, leading, standing), hot=COOL, sweeps=WARM, chains=FEW)[0]
+            )
+    score, n = max(((scored(labels), -n) for n, labels in enumerate(told)), default=(best.score, 1))
+    return replace(best, score=score, labels=told[-n]) if score > best.score + BY_OTHERS else best
 
 
 def _between_found(best: Best, evidence: Evidence) -> set[int]:
