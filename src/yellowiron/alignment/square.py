@@ -8,7 +8,7 @@ it is turned until the frame's axes are those that its faces look along; what wa
 from __future__ import annotations
 
 import itertools
-from collections.abc import Iterator, Sequence
+from collections.abc import Iterable, Iterator, Sequence
 from dataclasses import replace
 
 import numpy as np
@@ -37,6 +37,8 @@ LARGEST = 20_000
 """So many of the largest faces are looked at: what is round has small ones."""
 EXACTLY = np.sin(np.radians(0.6))
 """… and a direction and an axis of the file that is an axis of the machine's."""
+SAME = 0.9
+"""An axis of the file is believed where it has this share of what one beside it has."""
 TILTED = 3.0
 """A frame without any of the file's axes has more than so many times as much of the surface as one with one of them: of
 a loader's work equipment 2.5, the boom's and the bucket's faces beside what looks across."""
@@ -67,15 +69,19 @@ def square_to(assembly: Assembly) -> Floats | None:
 
     ways, own = _looked_in(normals, areas), along(np.eye(3))
     # One axis of the file is nearly always the machine's, or nearly so, mostly its upright.
-    upright = [*np.eye(3), *(way for way in ways if np.abs(way).max() > np.cos(np.arcsin(ACROSS)))]
-    kept = max(_frames(upright, ways, EXACTLY), key=along, default=np.eye(3))
-    any_one = max(_frames(ways, ways, ACROSS), key=along, default=np.eye(3))
-    tilted = along(any_one) > TILTED * max(along(kept), own)
-    best = any_one if tilted else kept
+    nearly = [way for way in ways if np.abs(way).max() > np.cos(np.arcsin(ACROSS))]
+    kept, leaning, any_one = (
+        max(_frames(ones, ways, across), key=along, default=np.eye(3))
+        for ones, across in ((np.eye(3), EXACTLY), (nearly, EXACTLY), (ways, ACROSS))
+    )
+    exact = SAME * along(leaning) <= along(kept)
+    best = kept if exact else leaning
+    tilted = along(any_one) > TILTED * max(along(best), own)
+    best = any_one if tilted else best
     if along(best) <= MORE * own:
         return None
     drawn_to = _drawn_to(best, normals, areas)
-    best = drawn_to if tilted else next(_frames([best[0]], [drawn_to[1]], ACROSS))
+    best = next(_frames([best[0]], [drawn_to[1]], ACROSS)) if exact and not tilted else drawn_to
     if not tilted and _most_even(spread_over(corners), best) == 0:
         return None
     return np.asarray(max((q @ best for q in quarters()), key=lambda turn: round(float(np.trace(turn)), 9)))
@@ -136,7 +142,7 @@ def _mean(way: Floats, normals: Floats, areas: Floats, alike: NDArray[np.bool_])
     return unit(total) if np.linalg.norm(total) > 0.0 else way
 
 
-def _frames(ones: Sequence[Floats], others: Sequence[Floats], across: float) -> Iterator[Floats]:
+def _frames(ones: Iterable[Floats], others: Sequence[Floats], across: float) -> Iterator[Floats]:
     """The frames (3, 3) that two directions give whose cosine is less, the first of them exact."""
     for one, other in itertools.product(ones, others):
         if abs(float(one @ other)) < across:
