@@ -263,13 +263,9 @@ def _roles_of_whole(
     """Roles for what is drawn and, where that is one half of a machine, for its mirror image: a half looks like no
     machine."""
     edits = edits if data is None else library.with_relations(edits, data)
-    askew = squared(drawn)
-    if askew is None:
-        found = _roles_of_square(drawn, template, specifications, edits, choices)
-    else:
-        square, rotation = askew
-        found = _roles_of_square(square, template, specifications, edits, choices, rotation)
-        found = turned_back(found, rotation)
+    square, rotation = squared(drawn) or (drawn, None)
+    found = _roles_of_square(square, template, specifications, edits, choices, rotation)
+    found = found if rotation is None else turned_back(found, rotation)
     return found if data is None else library.with_axes(found, data)
 
 
@@ -279,7 +275,7 @@ def _roles_of_square(
     specifications: Specifications,
     edits: Alignment | None,
     choices: Mapping[str, str] | None,
-    rotation: Floats | None = None,
+    rotation: Floats | None,
 ) -> Alignment:
     """`_roles_of_whole` of a model that stands square in its frame, to which `rotation` took its file's."""
     half = cad.half_of(drawn)

@@ -18,6 +18,7 @@ from yellowiron.cad.mesh.assembly import Occurrence, assemble
 from yellowiron.library import load_template
 from yellowiron.model.alignment import Alignment
 from yellowiron.model.assembly import Assembly, DeclaredJoint, Node
+from yellowiron.model.errors import AlignmentError
 from yellowiron.model.geometry import Floats, Mesh
 from yellowiron.model.specification import Specifications
 from yellowiron.stages import roles_of
@@ -76,6 +77,12 @@ def test_a_machine_that_leans_is_turned_all_the_same(lean: float, near: float) -
     rotation = about((1.0, 2.0, 0.0), lean) @ about((0.0, 0.0, 1.0), 37.0)
     found = square_to(turned(machine(), rotation))
     assert found is not None and off(found @ rotation, np.eye(3)) < near
+
+
+def test_a_model_without_parts_or_surface_is_left_to_those_who_say_so() -> None:
+    assert squared(replace(machine(), parts=())) is None
+    with pytest.raises(AlignmentError, match="no parts"):
+        roles_of(replace(machine(), parts=()), load_template("excavator"), Specifications())
 
 
 def test_raised_arms_do_not_turn_the_machine() -> None:

@@ -27,6 +27,8 @@ ALONG = np.cos(np.radians(4.0))
 """Faces that look in one direction as nearly as this look along it."""
 ACROSS = np.sin(np.radians(6.0))
 """Two directions are across each other as nearly as this."""
+EXACTLY = np.sin(np.radians(0.6))
+"""… and a direction and an axis of the file that is an axis of the machine's."""
 WAYS = 8
 """So many directions are tried in which most of the surface looks."""
 MORE = 1.5
@@ -35,8 +37,6 @@ NEARER = (4.0, 2.0, 1.0, 0.5)
 """Degrees: what is slightly bent or tapered looks along no axis."""
 LARGEST = 20_000
 """So many of the largest faces are looked at: what is round has small ones."""
-EXACTLY = np.sin(np.radians(0.6))
-"""… and a direction and an axis of the file that is an axis of the machine's."""
 SAME = 0.9
 """An axis of the file is believed where it has this share of what one beside it has."""
 TILTED = 3.0
@@ -57,6 +57,8 @@ def square_to(assembly: Assembly) -> Floats | None:
     """The rotation (3, 3) from the file's frame to the nearest one in which the machine stands square; None where it
     does so in the file's, or nothing tells. Arms are raised or lowered about what lies across the machine: of that, no
     turn tells how it stands."""
+    if not assembly.parts:
+        return None
     corners = np.concatenate([assembly.points_of(p)[assembly.shape_of(p).mesh.triangles] for p in assembly.parts])
     normals = np.cross(corners[:, 1] - corners[:, 0], corners[:, 2] - corners[:, 0])
     areas = np.linalg.norm(normals, axis=1)
@@ -88,7 +90,7 @@ def square_to(assembly: Assembly) -> Floats | None:
 
 
 def turned(assembly: Assembly, rotation: Floats) -> Assembly:
-    """The model turned about the origin of its frame, with all that it declares."""
+    """The model turned by a rotation (3, 3) about the origin of its frame, with all that it declares."""
     whole = np.eye(4)
     whole[:3, :3] = rotation
     return replace(
@@ -103,7 +105,7 @@ def turned(assembly: Assembly, rotation: Floats) -> Assembly:
 
 
 def turned_back(found: Alignment, rotation: Floats) -> Alignment:
-    """What was found of a model that had been `turned`, in its file's frame."""
+    """What was found of a model that had been `turned` by a rotation (3, 3), in its file's frame."""
     whole = np.eye(4)
     whole[:3, :3] = rotation
     axes = {

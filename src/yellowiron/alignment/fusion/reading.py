@@ -205,8 +205,8 @@ def _by_any_labels(best: Best, others: Sequence[Best], evidence: Evidence) -> Be
     single hydraulic cylinder of, the other has twins of: such labels are mended a little."""
     field, leading = best.field, evidence.leading
 
-    def scored(labels: np.ndarray) -> float:
-        return score_of(field, labels) + lacking(evidence, field.bodies, labels, best.template)
+    def scored(told: np.ndarray) -> float:
+        return score_of(field, told) + lacking(evidence, field.bodies, told, best.template)
 
     told = [labels_in(field, other, leading) for other in others if other is not best]
     for other in others:
@@ -214,8 +214,9 @@ def _by_any_labels(best: Best, others: Sequence[Best], evidence: Evidence) -> Be
             told.append(
                 labelled(field, labels_in(field, other, leading, standing), hot=COOL, sweeps=WARM, chains=FEW)[0]
             )
-    score, n = max(((scored(labels), -n) for n, labels in enumerate(told)), default=(best.score, 1))
-    return replace(best, score=score, labels=told[-n]) if score > best.score + BY_OTHERS else best
+    labels = max(told, key=scored, default=best.labels)
+    score = scored(labels)
+    return replace(best, score=score, labels=labels) if score > best.score + BY_OTHERS else best
 
 
 def _between_found(best: Best, evidence: Evidence) -> set[int]:
