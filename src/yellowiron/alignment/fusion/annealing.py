@@ -197,10 +197,11 @@ class Annealing:
                 others = np.concatenate([others, self._mirrored(labels, rng, count)])
             changed = scores_of(self.field, others.reshape(-1, labels.shape[1])).reshape(len(others), -1)
             gain = changed - scores
-            taken = (gain > 0) | (gain > np.log(rng.random(gain.shape)) * temperature)
-            first, any_ = np.argmax(taken, axis=0), taken.any(axis=0)
-            labels = np.where(any_[:, None], others[first, rows], labels)
-            scores = np.where(any_, changed[first, rows], scores)
+            taken = np.asarray((gain > 0) | (gain > np.log(rng.random(gain.shape)) * temperature))
+            first = np.argmax(taken, axis=0)
+            goes = taken[first, rows]
+            labels = np.where(goes[:, None], others[first, rows], labels)
+            scores = np.where(goes, changed[first, rows], scores)
         self.take(labels)
         return np.asarray(scores)
 

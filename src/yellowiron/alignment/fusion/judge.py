@@ -84,17 +84,6 @@ class Field:
         return np.flatnonzero(self.near)
 
     @cached_property
-    def lined(self) -> tuple[Ints, Ints, Floats]:
-        """The pieces at either end of the pairs `off`, and what each of these counts."""
-        one, other = np.ascontiguousarray(self.off.T)
-        return one, other, self.astray[one, other]
-
-    @cached_property
-    def none(self) -> Ints:
-        """(pieces,) a number for each that is no label's and no other piece's."""
-        return -1 - np.arange(len(self.unary))
-
-    @cached_property
     def exactly(self) -> tuple[Ints, Ints]:
         """The bonds that may hold a joint exactly, and where their `exact` begin."""
         bonds = np.flatnonzero(self.exact.any(axis=1))
@@ -291,10 +280,17 @@ def scores_of(field: Field, labels: Ints) -> Floats:
     total += field.held[0] * near_held + field.held[1] * exactly_held
     total += played[:, :-1] @ field.played[:-1]
     if len(field.off):
-        one, other, counts = field.lined
-        # What is no half is like nothing else.
-        like = np.where(field.halves.take(labels), labels, field.none).astype(np.int32)
-        total += (like.take(one, axis=1) == like.take(other, axis=1)) @ counts
+        # Few pieces are halves, and fewer of them of one body: these stand one after the other.
+        row, piece = np.nonzero(field.halves.take(labels))
+        own = row * count + labels[row, piece]
+        order = np.argsort(own, kind="stable")
+        own, row, piece = own[order], row[order], piece[order]
+        for later in range(1, len(own)):
+            like = np.flatnonzero(own[later:] == own[:-later])
+            if not len(like):
+                break
+            astray = field.astray[piece[like], piece[like + later]]
+            total += np.bincount(row[like], weights=astray, minlength=len(labels))
     return np.asarray(total)
 
 

@@ -12,7 +12,7 @@ import hashlib
 import marshal
 import operator
 import weakref
-from collections.abc import Callable, Iterable, Mapping, Set
+from collections.abc import Callable, Hashable, Iterable, Mapping, Set
 from dataclasses import fields, is_dataclass
 from pathlib import PurePath
 from typing import Any, get_args, get_type_hints
@@ -99,10 +99,10 @@ def _of_many(value: Any, known: Known) -> bytes:
 
 
 @functools.cache
-def _rows(kind: type) -> Callable[[Any], Any] | None:
-    """What gives the fields of a dataclass of nothing but numbers, texts and tuples of these: a machine has 100 000 such
-    values, and they are written at once. None for what is another type."""
-    if not is_dataclass(kind) or not fields(kind):
+def _rows(kind: Hashable) -> Callable[[Any], Any] | None:
+    """What gives the fields of a dataclass of nothing but numbers, texts and tuples of these, of which a machine has
+    100 000; None for another type."""
+    if not isinstance(kind, type) or not is_dataclass(kind) or not fields(kind):
         return None
     hints = get_type_hints(kind)
     flat = all(_is_flat(hints[field.name]) for field in fields(kind))
