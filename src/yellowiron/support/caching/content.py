@@ -80,7 +80,8 @@ def _of_many(value: Any, known: Known) -> bytes:
     if isinstance(value, (list, tuple)) and value and all(type(one) is str for one in value):
         return _of("texts", [repr(list(value)).encode("utf-8", "surrogatepass")])
     if isinstance(value, (list, tuple)):
-        if value and (row_of := _rows(kind := type(value[0]))) and all(type(one) is kind for one in value):
+        kind: Any = type(value[0]) if value else None
+        if (row_of := _rows(kind)) is not None and all(type(one) is kind for one in value):
             # What holds something else than it says is looked through.
             with contextlib.suppress(ValueError):
                 rows = marshal.dumps([row_of(one) for one in value], _MARSHAL)
