@@ -97,8 +97,9 @@ def in_one_unit(assembly: Assembly) -> tuple[Assembly, OtherUnits]:
     for _ in range(ROUNDS):
         rest = _Rest(assembly, [p.id for k, p in enumerate(parts) if boxes.core[k] or p.id in mended], boxes.size)
         found = {}
+        now = {p.id: p for p in assembly.parts}
         for i in (i for i in guesses if parts[i].id not in mended):
-            best = rest.best(assembly.part(parts[i].id), guesses[i], out=boxes.out(i), suspects=suspects)
+            best = rest.best(now[parts[i].id], guesses[i], out=boxes.out(i), suspects=suspects)
             if best is not None:
                 found[parts[i].id] = best
         if not found:
