@@ -12,7 +12,8 @@ under another choice of a variant · `ALN006` a hydraulic cylinder is not drawn 
 `ALN007` no body is left for parts that could move · `ALN008` a cylinder is to one side · `ALN009` parts stand apart and
 are left out · `ALN010` there seems to be more than one machine · `ALN011` the wheels have no tyres · `ALN016` a joint's
 axis is estimated · `ALN026` to `ALN028`: see `files.decisions` · `ALN029` one half is drawn ·
-`ALN032` a variant is in doubt · `ALN033` parts in another unit.
+`ALN032` a variant is in doubt · `ALN033` parts in another unit ·
+`ALN034` another size than the sheet's machine.
 """
 
 from __future__ import annotations
@@ -24,7 +25,7 @@ from yellowiron.support.lazy import lazy_names
 if TYPE_CHECKING:
     from yellowiron.alignment.apart import between_apart, between_found
     from yellowiron.alignment.assignment.sides import twin_role
-    from yellowiron.alignment.assignment.unit_scale import to_scale
+    from yellowiron.alignment.assignment.unit_scale import to_scale, to_size
     from yellowiron.alignment.discovery.discover import discover
     from yellowiron.alignment.discovery.robot import declared_roles, discover_declared
     from yellowiron.alignment.facing import named_direction
@@ -72,6 +73,7 @@ __all__ = [
     "said_in",
     "squared",
     "to_scale",
+    "to_size",
     "turned_back",
     "twin_role",
     "whole",
@@ -106,6 +108,7 @@ __getattr__, __dir__ = lazy_names(
         "said_in": "files.alignment_json",
         "squared": "square",
         "to_scale": "assignment.unit_scale",
+        "to_size": "assignment.unit_scale",
         "turned_back": "square",
         "twin_role": "assignment.sides",
         "whole": "files.whole",

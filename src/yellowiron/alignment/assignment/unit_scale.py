@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import math
-from collections.abc import Iterator
+from collections.abc import Iterator, Mapping
 from dataclasses import replace
 
 import numpy as np
@@ -40,6 +40,11 @@ AGREE = 0.01
 """Two diameters agree within this share."""
 ENOUGH = 3
 """So many diameters of hydraulic cylinders that agree with the sheet's give the scale of a model without a unit."""
+OTHER_SIZE = 1.2
+"""So many times as large, or as small, is no other machine of the maker's, and no slip of a drawing."""
+SIZES_AGREE, SIZES = 0.15, 3
+"""So many lengths, and two of three of them, agree on it within this share: what an artist draws has a machine's
+proportions roughly."""
 
 
 def to_scale(assembly: Assembly, template: Template, specifications: Specifications) -> Assembly:
@@ -107,6 +112,29 @@ def _to_usual_size(assembly: Assembly, template: Template) -> Assembly:
         return _rescaled(assembly, again[name], words)
     words = f"{read}, and none explains it: scaled by {middle / drawn:.4g} to {middle:.3g} m, which is usual: a guess"
     return _rescaled(assembly, middle / drawn, words)
+
+
+def to_size(assembly: Assembly, sizes: Mapping[str, tuple[float, float]]) -> Assembly:
+    """The model as large as the sheet's machine, where lengths that hang on no pose agree that it is another size
+    (`sizes`: name → on the model, on the sheet, metres), with a finding (ALN034). The same object where they do not,
+    but for the finding where its file is exact: CAD has a size, and the sheet may be another machine's."""
+    ratios = {name: math.log(sheet / model) for name, (model, sheet) in sizes.items()}
+    middle = float(np.median([*ratios.values()])) if ratios else 0.0
+    agreed = [name for name, ratio in ratios.items() if abs(ratio - middle) <= SIZES_AGREE]
+    if abs(middle) <= math.log(OTHER_SIZE) or len(agreed) < max(SIZES, 2 * len(ratios) / 3):
+        return assembly
+    factor = math.exp(middle)
+    words = f"The CAD model is {1.0 / factor:.3g} times as large as the sheet's machine, by {', '.join(agreed)}"
+    if any(shape.exact for shape in assembly.shapes.values()):
+        hint = "Check that the sheet is this machine's; CAD is taken at its word."
+        return replace(assembly, findings=(*assembly.findings, _of_size(assembly, words, hint)))
+    hint = "Nothing to do if the model is to be the sheet's machine; else give the sheet of the machine that is drawn."
+    found = _of_size(assembly, f"{words}: scaled by {factor:.3g}", hint)
+    return replace(scaled(assembly, factor), findings=(*assembly.findings, found))
+
+
+def _of_size(assembly: Assembly, words: str, hint: str) -> Finding:
+    return Finding("ALN034", "warning", assembly.name, words, hint)
 
 
 def _rescaled(assembly: Assembly, factor: float, words: str) -> Assembly:
