@@ -18,13 +18,14 @@ from yellowiron.alignment import (
     declared_roles,
     in_one_unit,
     of_drawn,
+    other_size,
     parts_in,
     read_alignment,
     reviewed,
     said_in,
+    scaled,
     squared,
     to_scale,
-    to_size,
     turned_back,
     twin_role,
 )
@@ -119,10 +120,13 @@ def find_roles(
         )
 
     model, best = found(assembly, specifications)
-    sized = to_size(assembly, _sizes(model, template, best, specifications, choices or {}))
-    if sized is not assembly:
-        # A size that is known within a tenth tells no cylinder by its bore.
-        model, best = found(sized, without_cylinders(specifications, template))
+    other = other_size(assembly, _sizes(model, template, best, specifications, choices or {}))
+    if other is not None:
+        factor, finding = other
+        if factor != 1.0:
+            # A size that is known within a tenth tells no cylinder by its bore.
+            model, best = found(scaled(assembly, factor), without_cylinders(specifications, template))
+        model = replace(model, findings=(*model.findings, finding))
     return model, reviewed(best, model, units)
 
 

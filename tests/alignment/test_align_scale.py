@@ -9,11 +9,12 @@ import pytest
 
 from kit.machines.synthetic import loader
 from kit.scene import scene
-from yellowiron import kinematics
-from yellowiron.alignment import align, to_scale, to_size
+from yellowiron import kinematics, stages
+from yellowiron.alignment import align, other_size, to_scale
 from yellowiron.alignment.assignment.unit_scale import scaled
 from yellowiron.library import is_sheet_only, list_templates, load_template
 from yellowiron.mechanism import build_mechanism
+from yellowiron.model.alignment import Alignment
 from yellowiron.model.assembly import Assembly
 from yellowiron.model.finding import Finding
 from yellowiron.model.rows import expand
@@ -181,23 +182,44 @@ def test_lengths_that_agree_tell_the_size(
 ) -> None:
     sizes = {f"length {k}": (1.5, 1.5 * ratio) for k, ratio in enumerate(ratios)}
     mesh = replace(drawn, shapes={key: replace(shape, exact=False) for key, shape in drawn.shapes.items()})
-    model = to_size(mesh, sizes)
+    found = other_size(mesh, sizes)
     if factor is None:
-        assert model is mesh
+        assert found is None
+        assert other_size(drawn, sizes) is None
         return
-    assert size(model) == pytest.approx(factor * size(drawn), rel=1e-6)
-    (finding,) = model.findings
-    assert finding.code == "ALN034"
-    assert f"scaled by {factor:.3g}" in finding.message
-    # CAD is taken at its word.
-    exact = to_size(drawn, sizes)
-    assert size(exact) == size(drawn)
-    assert [f.code for f in exact.findings] == ["ALN034"]
+    assert found is not None
+    assert found[0] == pytest.approx(factor, rel=1e-9)
+    assert found[1].code == "ALN034"
+    assert f"scaled by {factor:.3g}" in found[1].message
+    exact = other_size(drawn, sizes)  # CAD is taken at its word
+    assert exact is not None
+    assert exact[0] == 1.0
+    assert "scaled" not in exact[1].message
+
+
+@pytest.mark.parametrize("exact", [True, False])
+def test_exact_cad_is_recognised_once_and_as_the_sheet_has_it(
+    exact: bool, drawn: Assembly, template: Template, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    """Only what is scaled by lengths that agree within a tenth hears no bores."""
+    model = replace(drawn, shapes={key: replace(shape, exact=exact) for key, shape in drawn.shapes.items()})
+    sheet_ = sheet(Overall_Width=3.0, Lift_Cylinder_Bore=0.16)
+    heard = []
+
+    def roles(assembly: Assembly, template: Template, told: Specifications, **_: object) -> tuple[Assembly, Alignment]:
+        heard.append((round(size(assembly) / size(drawn), 6), told.number("Lift Cylinder Bore")))
+        return assembly, Alignment("wheel_loader", np.eye(4), ())
+
+    monkeypatch.setattr(stages, "_roles_in_one_unit", roles)
+    monkeypatch.setattr(stages, "_sizes", lambda *_: dict.fromkeys("abc", (1.0, 2.0)))
+    found, _ = find_roles(model, template, sheet_)
+    assert heard == ([(1.0, 0.16)] if exact else [(1.0, 0.16), (2.0, None)])
+    assert [f.code for f in found.findings] == ["ALN034"]
 
 
 @pytest.mark.slow
 def test_a_model_of_another_size_than_its_sheet_is_built_in_the_sheets() -> None:
-    """Lengths that hang on no pose, measured on the sound machine, are the sheet of one drawn half as large again."""
+    """Lengths that hang on no pose, measured on the sound machine, are the sheet of one that is drawn at two thirds."""
     given = scene("excavator", 3, "sound")
     excavator = load_template("excavator")
     assembly, found = find_roles(given.assembly, excavator, Specifications())

@@ -25,7 +25,7 @@ from yellowiron.support.lazy import lazy_names
 if TYPE_CHECKING:
     from yellowiron.alignment.apart import between_apart, between_found
     from yellowiron.alignment.assignment.sides import twin_role
-    from yellowiron.alignment.assignment.unit_scale import to_scale, to_size
+    from yellowiron.alignment.assignment.unit_scale import other_size, scaled, to_scale
     from yellowiron.alignment.discovery.discover import discover
     from yellowiron.alignment.discovery.robot import declared_roles, discover_declared
     from yellowiron.alignment.facing import named_direction
@@ -63,6 +63,7 @@ __all__ = [
     "in_one_unit",
     "named_direction",
     "of_drawn",
+    "other_size",
     "parse_machine",
     "parse_rules",
     "parts_in",
@@ -71,9 +72,9 @@ __all__ = [
     "read_values",
     "reviewed",
     "said_in",
+    "scaled",
     "squared",
     "to_scale",
-    "to_size",
     "turned_back",
     "twin_role",
     "whole",
@@ -97,6 +98,7 @@ __getattr__, __dir__ = lazy_names(
         "fits": "files.decisions",
         "in_one_unit": "mixed_units",
         "named_direction": "facing",
+        "other_size": "assignment.unit_scale",
         "of_drawn": "labelling.halves",
         "parse_machine": "files.whole",
         "parse_rules": "files.decisions",
@@ -106,9 +108,9 @@ __getattr__, __dir__ = lazy_names(
         "read_values": "files.alignment_json",
         "reviewed": "mixed_units",
         "said_in": "files.alignment_json",
+        "scaled": "assignment.unit_scale",
         "squared": "square",
         "to_scale": "assignment.unit_scale",
-        "to_size": "assignment.unit_scale",
         "turned_back": "square",
         "twin_role": "assignment.sides",
         "whole": "files.whole",

@@ -336,10 +336,11 @@ def _with_idle_held(joints: Sequence[Joint], tree: Tree, findings: list[Finding]
     by_name = {joint.name: joint for joint in joints}
 
     def idle(joint: Joint) -> bool:
+        if joint.free or joint.name in closed or joint.drive is not None:
+            return False
         if joint.follows is not None:
             return idle(by_name[joint.follows.joint])
-        driven = joint.free or joint.name in closed or joint.drive is not None
-        return joint.type in ("revolute", "prismatic", "spherical") and not driven
+        return joint.type in ("revolute", "prismatic", "spherical")
 
     held = []
     for joint in joints:

@@ -23,9 +23,8 @@ MOST_TILT = 0.03
 """Radians by which the axis of a coarse round face may be tilted at most: what is flat beside it tells it better."""
 SLIGHT = 5e-4
 """Volume over the cube of the diagonal: a hose has less, a plate or a bar more."""
-
 FEW_POINTS = 500
-"""Of so many points it is not looked for the outermost ones."""
+"""Of so many points, all are looked at for where a shape ends; of more, the outermost ones."""
 
 
 @dataclass(frozen=True, eq=False)

@@ -105,7 +105,10 @@ def _rows(kind: Hashable) -> Callable[[Any], Any] | None:
     100 000; None for another type."""
     if not isinstance(kind, type) or not is_dataclass(kind) or not fields(kind):
         return None
-    hints = get_type_hints(kind)
+    try:
+        hints = get_type_hints(kind)
+    except NameError:  # it names what only a type checker imports
+        return None
     flat = all(_is_flat(hints[field.name]) for field in fields(kind))
     return operator.attrgetter(*(field.name for field in fields(kind))) if flat else None
 
