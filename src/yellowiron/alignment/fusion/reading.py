@@ -24,6 +24,7 @@ from yellowiron.alignment.fusion.limbs import on_limbs
 from yellowiron.alignment.fusion.pieces import Piece
 from yellowiron.alignment.fusion.played import beside_lost_arms, missing_bodies
 from yellowiron.alignment.fusion.stance import Stance
+from yellowiron.alignment.fusion.surfaces import by_surface
 from yellowiron.alignment.fusion.votes import (
     BARS,
     CLEARLY,
@@ -143,6 +144,7 @@ def fused(
         warmed = tried(told.choices, told.template, way, WARM, start=told)
         best, evidence = max(told, warmed, key=lambda b: b.score), way
         likely.append(best)
+    best = by_surface(best, evidence)
     if more := _between_found(best, evidence):
         # What is small is added to the machine that was found: alone it could outweigh what leads.
         wider = replace(evidence, leading=tuple(sorted({*evidence.leading, *more})))
@@ -151,6 +153,7 @@ def fused(
     unsaid = _unsaid(best, evidence)
     best, doubtful = interposed(best, machines, evidence)
     best, evidence = on_limbs(best, evidence)
+    best = by_surface(best, evidence)
     tried_so = [(b.choices, b.score) for b in likely]
     as_good = open_choices(best.choices, tried_so, max(b.score for b in likely) - AS_GOOD)
     contacts = max(_unsaid(found, way) for found, way in of_contacts)
