@@ -21,30 +21,37 @@ from yellowiron.model.template import Template
 ROUNDS = 40
 """So many times at most some pieces become another body."""
 CLEARLY = 3.0
-"""… each time by a labelling that is better by more than this."""
+"""… each time by a labelling that is better by more than this, …"""
+FITTER = 9.0
+"""… and whose surfaces are, by more than this: what else speaks for a body has been heard."""
 
 
 def by_surface(best: Best, evidence: Evidence) -> Best:
     """The labelling mended by the surface that each body usually has: pieces, with what is beside them of their body
-    and with their mirror images, become another body as long as that is better. The score, by which variants compare,
-    is as it was."""
+    and with their mirror images, become another body as long as that is better for it. No body is lost for that, and
+    what was chosen to be between two others stays that. The score, by which variants compare, is as it was."""
     surface = Surfaces(best.field, best.template, evidence, best.leading)
     pieces, field = len(best.labels), best.field
     if pieces <= len(field.bodies) or not surface.known.any():
         return best
-    labels = best.labels
-    reached = score_of(field, labels) + surface.cost(labels[None])[0]
-    reached += lacking(evidence, field.bodies, labels, best.template)
+    kept = [n for n, k in enumerate(best.leading) if k in best.between]
+    labels, none = best.labels, len(field.bodies)
+    cost = surface.cost(labels[None])[0]
+    reached = score_of(field, labels) + cost + lacking(evidence, field.bodies, labels, best.template)
     for _ in range(ROUNDS):
         others = _changed(field, labels)
-        if not len(others):
+        costs = surface.cost(others)
+        played = [(others == n).any(axis=1) for n in np.unique(labels[labels < none]).tolist()]
+        may_be = (costs > cost + FITTER) & (others[:, kept] == labels[kept]).all(axis=1) & np.all(played, axis=0)
+        if not may_be.any():
             break
-        found = scores_of(field, others) + surface.cost(others)
-        first = others[int(np.argmax(found))]
-        score = float(found.max()) + lacking(evidence, field.bodies, first, best.template)
+        others, costs = others[may_be], costs[may_be]
+        found = scores_of(field, others) + costs
+        chosen = int(np.argmax(found))
+        score = float(found[chosen]) + lacking(evidence, field.bodies, others[chosen], best.template)
         if score <= reached + CLEARLY:
             break
-        labels, reached = first, score
+        labels, reached, cost = others[chosen], score, costs[chosen]
     return best if labels is best.labels else replace(best, labels=labels)
 
 
