@@ -18,7 +18,7 @@ from yellowiron.alignment.fusion.judge import field_of, weights
 from yellowiron.alignment.fusion.pieces import Piece
 from yellowiron.alignment.fusion.stance import Stance
 from yellowiron.alignment.fusion.surfaces import Surfaces, by_surface
-from yellowiron.alignment.fusion.votes import votes_of
+from yellowiron.alignment.fusion.votes import ACROSS, votes_of
 from yellowiron.library import load_template
 from yellowiron.model.template import Template, choose
 
@@ -61,10 +61,11 @@ def in_crumbs(template: Template, *, bucket: int) -> tuple[Best, Evidence]:
     return Best(1.0, {}, template, field, labels, told, known.leading), known
 
 
-def test_a_body_of_a_tenth_of_its_surface_is_given_the_rest(excavator: Template) -> None:
+def test_a_body_of_a_tenth_of_its_surface_is_given_what_it_lacks(excavator: Template) -> None:
     best, known = in_crumbs(excavator, bucket=1)
     found = by_surface(best, known)
-    assert sum(found.field.bodies[n] == "bucket" for n in found.labels) >= 6
+    assert sum(found.field.bodies[n] == "bucket" for n in best.labels) == 1
+    assert sum(found.field.bodies[n] == "bucket" for n in found.labels) >= 4
     assert (found.labels[:32] == best.labels[:32]).all()
     assert found.score == best.score, "variants compare by the score as it was"
 
@@ -72,6 +73,14 @@ def test_a_body_of_a_tenth_of_its_surface_is_given_the_rest(excavator: Template)
 def test_what_has_its_surface_stays_as_it_is(excavator: Template) -> None:
     best, known = in_crumbs(excavator, bucket=8)
     assert by_surface(best, known) is best
+
+
+def test_no_body_is_lost_to_its_surface_nor_one_that_was_put_between_two(excavator: Template) -> None:
+    best, known = in_crumbs(excavator, bucket=1)
+    between = replace(best, between=dict.fromkeys(range(32, 40), "is between"))
+    found = by_surface(between, known)
+    assert (found.labels[32:] == best.labels[32:]).all()
+    assert set(best.labels.tolist()) <= set(found.labels.tolist())
 
 
 def test_surfaces_speak_of_no_halves_of_cylinders_and_not_against_tracks_apart(excavator: Template) -> None:
@@ -102,7 +111,7 @@ def test_the_place_of_a_crumb_counts_less(excavator: Template) -> None:
 
 
 @pytest.mark.parametrize(("axis", "across"), [((1.0, 0.0, 0.0), False), ((0.0, 1.0, 0.0), True)])
-def test_a_bar_across_the_machine_is_no_half_of_a_cylinder_without_room(
+def test_a_bar_across_the_machine_is_hardly_half_of_a_cylinder_without_room(
     excavator: Template, monkeypatch: pytest.MonkeyPatch, axis: tuple[float, float, float], across: bool
 ) -> None:
     monkeypatch.setattr(votes_module, "_solved", lambda answer: {})
@@ -113,7 +122,9 @@ def test_a_bar_across_the_machine_is_no_half_of_a_cylinder_without_room(
         (mine,) = votes_of([bar], template, [name], [1.0], answer, STANCE, {}, 1.0)
         return dict(mine)
 
-    assert ("boom_cylinder_barrel" not in told(excavator, {})) == across
-    assert "boom_cylinder_barrel" in told(excavator, {"boom_cylinder_barrel": 1.0}), "unless it is called so"
+    assert told(excavator, {})["boom_cylinder_barrel"].get("no bar", 0.0) == (ACROSS if across else 0.0)
+    called = told(excavator, {"boom_cylinder_barrel": 1.0})["boom_cylinder_barrel"]
+    assert called.get("no bar", 0.0) == (1.0 if across else 0.0), "unless it is called so"
     truck = choose(load_template("rigid_dump_truck"), {})
-    assert "steering_cylinder_barrel_l" in told(truck, {}), "a steering cylinder lies across"
+    steering = told(truck, {})["steering_cylinder_barrel_l"]
+    assert steering.get("no bar", 0.0) == (1.0 if across else 0.0), "a steering cylinder lies across"
