@@ -11,13 +11,12 @@ import pytest
 
 from yellowiron.alignment.assignment.answer import Answer
 from yellowiron.alignment.fusion import votes as votes_module
-from yellowiron.alignment.fusion.best import Best
+from yellowiron.alignment.fusion.best import Best, Surfaces, by_surface
 from yellowiron.alignment.fusion.bonds import Bond
 from yellowiron.alignment.fusion.evidence import Evidence
 from yellowiron.alignment.fusion.judge import field_of, weights
 from yellowiron.alignment.fusion.pieces import Piece
 from yellowiron.alignment.fusion.stance import Stance
-from yellowiron.alignment.fusion.surfaces import Surfaces, by_surface
 from yellowiron.alignment.fusion.votes import ACROSS, votes_of
 from yellowiron.library import load_template
 from yellowiron.model.template import Template, choose

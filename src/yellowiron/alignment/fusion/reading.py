@@ -15,7 +15,15 @@ from yellowiron.alignment.assignment.sides import twin_role
 from yellowiron.alignment.facing import UNTOLD, Facing
 from yellowiron.alignment.features.solids import Solid
 from yellowiron.alignment.fusion.annealing import CHAINS, HOT, SWEEPS, WARM, WARM_UP, against, labelled, leads
-from yellowiron.alignment.fusion.best import CLEAR_LEAD, Best, field_of_leading, labels_in, lacking, standing_for
+from yellowiron.alignment.fusion.best import (
+    CLEAR_LEAD,
+    Best,
+    by_surface,
+    field_of_leading,
+    labels_in,
+    lacking,
+    standing_for,
+)
 from yellowiron.alignment.fusion.bonds import Bond, out_of_line
 from yellowiron.alignment.fusion.evidence import Evidence, across, evidence_of, ways_of
 from yellowiron.alignment.fusion.interposed import interposed
@@ -24,7 +32,6 @@ from yellowiron.alignment.fusion.limbs import on_limbs
 from yellowiron.alignment.fusion.pieces import Piece
 from yellowiron.alignment.fusion.played import beside_lost_arms, missing_bodies
 from yellowiron.alignment.fusion.stance import Stance
-from yellowiron.alignment.fusion.surfaces import by_surface
 from yellowiron.alignment.fusion.votes import (
     BARS,
     CLEARLY,
