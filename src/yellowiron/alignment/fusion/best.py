@@ -2,7 +2,7 @@
 surface that each body has.
 
 With twice or half of its usual surface a body is still itself, with a tenth it is a piece of itself, and the rest was
-taken for another's. Of 22 machines of strangers, 126 frames, arms, links and tools have 0.95 times the usual surface
+taken for another's. Of 23 models of strangers, 126 frames, arms, links and tools have 0.95 times the usual surface
 (the logarithms' mean; their deviation is 0.48). It says little where a body is one piece, and much where it is shells
 by the dozen.
 """
