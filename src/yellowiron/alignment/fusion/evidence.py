@@ -18,7 +18,7 @@ from yellowiron.alignment.fusion.bonds import Bond, bonds_of, stem_of
 from yellowiron.alignment.fusion.pieces import Piece, leading, pieces_of
 from yellowiron.alignment.fusion.stance import Stance, on_wheels, stance_of
 from yellowiron.alignment.fusion.trust import trust_in_names, worth_of_name
-from yellowiron.alignment.fusion.votes import BARS, Features, Votes, clearly_named, joints_apart, votes_of
+from yellowiron.alignment.fusion.votes import BARS, Votes, clearly_named, joints_apart, votes_of
 from yellowiron.alignment.structure.observation import Observation
 from yellowiron.model.assembly import Part
 from yellowiron.model.template import Template
@@ -26,8 +26,6 @@ from yellowiron.support.vectors import triple
 
 SEVERAL = 3
 """A name that so many pieces bear, but for its number, is an assembly's: two may be the left and the right one."""
-FEW = 3.0
-"""A body may be of so many pieces as large that the place of each counts whole."""
 PARTS = (1, 2)
 """What begins so many joints from the root may be all that is drawn."""
 
@@ -74,25 +72,12 @@ class Evidence:
             for k, piece in enumerate(self.pieces)
         ]
         votes = votes_of(self.pieces, template, self.scores, trust, self.answer, self.stance, self.edited, self.surface)
-        votes = [
-            mine if k in self.leading else {body: self.as_crumb(k, body, what, template) for body, what in mine.items()}
-            for k, mine in enumerate(votes)
-        ]
         halves = {r.name for r in template.roles if r.kind in BARS}
         absent = self.stance.absent - set(self.edited.values())
         return [
             {body: what for body, what in mine.items() if body not in absent and (k not in self.pins or body in halves)}
             for k, mine in enumerate(votes)
         ]
-
-    def as_crumb(self, k: int, body: str, told: Features, template: Template) -> Features:
-        """What speaks for a piece that does not lead: of one that has less than its part of the surface that the body
-        usually has, the place counts less. A dozen crumbs where a link usually is are no dozen links."""
-        usual = template.usual.get(body)
-        if "place" not in told or usual is None or usual.area <= 0.0:
-            return told
-        share = self.stance.drawn * self.pieces[k].area / self.surface
-        return {**told, "place": told["place"] * min(1.0, FEW * share / usual.area)}
 
 
 def evidence_of(

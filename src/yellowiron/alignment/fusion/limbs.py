@@ -126,12 +126,6 @@ def on_limbs(best: Best, evidence: Evidence) -> tuple[Best, Evidence]:
     if not hung:
         return best, evidence
     votes = along_limbs(best.votes, pieces, limbs, best.template, evidence.stance)
-    votes = [
-        mine
-        if k in evidence.leading
-        else {b: evidence.as_crumb(k, b, what, best.template) if b in limbs else what for b, what in mine.items()}
-        for k, mine in enumerate(votes)
-    ]
     pins = evidence.pins - own.keys()
 
     def may_be(k: int) -> Collection[str]:

@@ -15,15 +15,7 @@ from yellowiron.alignment.assignment.sides import twin_role
 from yellowiron.alignment.facing import UNTOLD, Facing
 from yellowiron.alignment.features.solids import Solid
 from yellowiron.alignment.fusion.annealing import CHAINS, HOT, SWEEPS, WARM, WARM_UP, against, labelled, leads
-from yellowiron.alignment.fusion.best import (
-    CLEAR_LEAD,
-    Best,
-    by_surface,
-    field_of_leading,
-    labels_in,
-    lacking,
-    standing_for,
-)
+from yellowiron.alignment.fusion.best import CLEAR_LEAD, Best, field_of_leading, labels_in, lacking, standing_for
 from yellowiron.alignment.fusion.bonds import Bond, out_of_line
 from yellowiron.alignment.fusion.evidence import Evidence, across, evidence_of, ways_of
 from yellowiron.alignment.fusion.interposed import interposed
@@ -151,7 +143,6 @@ def fused(
         warmed = tried(told.choices, told.template, way, WARM, start=told)
         best, evidence = max(told, warmed, key=lambda b: b.score), way
         likely.append(best)
-    best = by_surface(best, evidence)
     if more := _between_found(best, evidence):
         # What is small is added to the machine that was found: alone it could outweigh what leads.
         wider = replace(evidence, leading=tuple(sorted({*evidence.leading, *more})))
@@ -160,7 +151,6 @@ def fused(
     unsaid = _unsaid(best, evidence)
     best, doubtful = interposed(best, machines, evidence)
     best, evidence = on_limbs(best, evidence)
-    best = by_surface(best, evidence)
     tried_so = [(b.choices, b.score) for b in likely]
     as_good = open_choices(best.choices, tried_so, max(b.score for b in likely) - AS_GOOD)
     contacts = max(_unsaid(found, way) for found, way in of_contacts)
