@@ -12,7 +12,7 @@ from yellowiron.alignment.assignment.answer import Answer
 from yellowiron.alignment.fusion import votes as votes_module
 from yellowiron.alignment.fusion.pieces import Piece
 from yellowiron.alignment.fusion.stance import Stance
-from yellowiron.alignment.fusion.votes import ACROSS, votes_of
+from yellowiron.alignment.fusion.votes import votes_of
 from yellowiron.library import load_template
 from yellowiron.model.template import Template, choose
 
@@ -44,9 +44,11 @@ def test_a_bar_across_the_machine_is_hardly_half_of_a_cylinder_without_room(
         (mine,) = votes_of([bar], template, [name], [1.0], answer, STANCE, {}, 1.0)
         return dict(mine)
 
-    assert told(excavator, {})["boom_cylinder_barrel"].get("no bar", 0.0) == (ACROSS if across else 0.0)
+    assert told(excavator, {})["boom_cylinder_barrel"].get("crosswise", 0.0) == float(across)
     called = told(excavator, {"boom_cylinder_barrel": 1.0})["boom_cylinder_barrel"]
-    assert called.get("no bar", 0.0) == (1.0 if across else 0.0), "unless it is called so"
+    assert called.get("no bar", 0.0) == float(across)
+    assert "crosswise" not in called, "unless it is called so"
     truck = choose(load_template("rigid_dump_truck"), {})
     steering = told(truck, {})["steering_cylinder_barrel_l"]
-    assert steering.get("no bar", 0.0) == (1.0 if across else 0.0), "a steering cylinder lies across"
+    assert steering.get("no bar", 0.0) == float(across)
+    assert "crosswise" not in steering, "a steering cylinder lies across"

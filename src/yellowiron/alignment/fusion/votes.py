@@ -29,8 +29,8 @@ BULKY = 0.02
 """A piece of more than this share of the machine's surface that is no bar is no half of a cylinder."""
 SIDEWAYS = 0.5
 """A bar that lies across the machine is a pin or an axle, no hydraulic cylinder (cosine to the left), …"""
-ACROSS, ROOM = 3.0, 0.4
-"""… so much less than another that is no bar if the half is usually no wider across than this share of its length."""
+ROOM = 0.4
+"""… and hardly half of one that is usually no wider across than this share of its length."""
 FARTHEST = 25.0
 """No more than so many squared deviations of a point count."""
 MOST = 7.0
@@ -100,7 +100,7 @@ def votes_of(
             usual = template.usual.get(body, anywhere)
             lies_across = piece.slender and kind in BARS and piece.kind not in BARS and _across(piece, stance)
             if lies_across and not name and body not in told and usual is not None and not _has_room(usual):
-                shape = {"no bar": ACROSS}
+                shape = {"no bar": 1.0, "crosswise": 1.0}
             if meant and meant <= set(BARS) and kind not in BARS and not told:
                 # Its names speak of hydraulic cylinders alone, if not of which.
                 shape = {**shape, "unlike": max(worth * max(said.values()), shape.get("unlike", 0.0))}
