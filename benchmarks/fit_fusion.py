@@ -1,7 +1,8 @@
 """What each kind of evidence counts where contacts find no machine: `alignment/data/fusion.json`, fitted to machines
 whose truth is known.
 
-    python benchmarks/fit_fusion.py collect FOLDER [--first N] [--count N] [--damages …] [--real [--shake S,…]] [--models DIR]
+    python benchmarks/fit_fusion.py collect FOLDER [--first SEED] [--count N] [--damages …]
+    python benchmarks/fit_fusion.py collect FOLDER --real [--models DIR] [--shake S,…]
     python benchmarks/fit_fusion.py fit FOLDER [--rounds N] [--loyal L] [--jobs N]
     python benchmarks/fit_fusion.py cross FOLDER [--rounds N] [--loyal L,…] [--folds K] [--jobs N]
     python benchmarks/fit_fusion.py show FOLDER [--jobs N]
