@@ -73,7 +73,7 @@ from yellowiron.alignment.labelling.track_places import (
     upright,
     without_tracks,
 )
-from yellowiron.alignment.labelling.undercut import too_low, undercut
+from yellowiron.alignment.labelling.undercut import regrounded, too_low, undercut
 from yellowiron.alignment.structure.observation import Observation, observe
 from yellowiron.alignment.tolerances import CONTACT
 from yellowiron.alignment.undrawn import undrawn
@@ -159,6 +159,7 @@ def align(
 
     search = Search(look, plain, specifications, choices, edited)
     answer, observation, scores = search.run()
+    answer, fallen = regrounded(observation, answer)
     agreement = search.agreement
     held = held_share(answer) >= (HELD_TOLD if edited else HELD) and shows_what_is_special(answer, plain)
     share = drawn_share(answer, observation.solids)
@@ -197,6 +198,7 @@ def align(
         scores,
         frame.matrix[2, :3] if frame is not None else np.array([0.0, 0.0, 1.0]),
         never=too_low(observation, answer),
+        doubts=fallen if answer.judged is None else {},
         rivals=rivals,
         suspects={}
         if answer.judged is not None

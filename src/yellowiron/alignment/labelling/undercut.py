@@ -2,16 +2,105 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterator
+from collections.abc import Iterator, Sequence
+from dataclasses import replace
 
+import networkx
 import numpy as np
 
 from yellowiron.alignment.assignment.answer import Answer
+from yellowiron.alignment.features.solids import Solid
+from yellowiron.alignment.structure.clusters import Cluster
+from yellowiron.alignment.structure.min_cut import strength
 from yellowiron.alignment.structure.observation import Observation, slewing_joints
 from yellowiron.model.geometry import Floats
 
 BELOW = 0.3
-"""Of the carrier's height: what it carries begins higher up on it."""
+"""Of the carrier's height: what it carries begins higher up on it, …"""
+WITHIN = 0.75
+"""… and what is lower than this, on the whole, is the carrier's where anything of it reaches so far down."""
+
+
+def regrounded(observation: Observation, answer: Answer) -> tuple[Answer, dict[int, str]]:
+    """The answer with what reaches the ground on the body that carries; and solid → why it is, for what was moved.
+
+    Of a body that slews on another and reaches about as low, whatever hangs together with its low parts is the
+    carrier's, cut off where the least contact holds it to what is wholly above the carrier: a track's belt that runs
+    into the deck above it had made one of both. Where either of the two bodies was not found, the tracks tell how high
+    the carrier is, and one that was found is cut in two."""
+    moved: dict[int, str] = {}
+    for carrier, carried, up, base in _grounds(observation, answer):
+        members = _members(answer)
+        own = members[carried if carried in members else carrier]
+        _, bottom, top = _heights(base, up)
+        reach = {i: _heights([observation.solids[i]], up) for i in own}
+        low = {i for i, (middle, _, _) in reach.items() if middle < bottom + WITHIN * (top - bottom)}
+        high = {i for i, (_, lowest, _) in reach.items() if lowest >= top}
+        if not high or all(lowest >= bottom + BELOW * (top - bottom) for _, lowest, _ in reach.values()):
+            continue
+        fallen = _hanging_on(low, high, own, observation)
+        if carried in members:
+            answer = _moved(answer, fallen, carried, carrier)
+            moved |= dict.fromkeys(sorted(fallen), f"it reaches the ground, and was drawn into {carried}")
+        else:
+            answer = _moved(answer, own - fallen, carrier, carried)
+            moved |= dict.fromkeys(sorted(own - fallen), f"it is above the tracks, and was drawn into {carrier}")
+    return answer, moved
+
+
+def _grounds(observation: Observation, answer: Answer) -> Iterator[tuple[str, str, Floats, Sequence[Solid]]]:
+    """Of every slewing joint: its carrier, what that carries, upwards, and the solids whose height is the carrier's:
+    its own where the joint was found, or the tracks', where only one of its bodies was."""
+    found = {(carrier, carried): up for carrier, carried, up in _slewing(observation, answer)}
+    members = _members(answer)
+    for name in slewing_joints(answer.template):
+        bodies = {b for b in answer.template.bodies_of(answer.template.joint(name)) if b is not None}
+        if len(bodies) != 2:
+            continue
+        carrier, carried = sorted(bodies, key=answer.template.depth)
+        if (carrier, carried) in found:
+            solids = [observation.solids[i] for i in sorted(members[carrier])]
+            yield carrier, carried, found[carrier, carried], solids
+        elif observation.rows and observation.up is not None and len(bodies & members.keys()) == 1:
+            yield carrier, carried, _upwards(observation), observation.rows
+
+
+def _moved(answer: Answer, solids: frozenset[int], giver: str, taker: str) -> Answer:
+    """The answer with some solids of one body as another's, which has a new cluster if it had none."""
+    clusters, body_of = list(answer.structure.clusters), dict(answer.solution.body_of)
+    number = {b: c for c, b in body_of.items()}
+    given = clusters[number[giver]]
+    clusters[number[giver]] = replace(given, members=given.members - solids)
+    if taker in number:
+        taken = clusters[number[taker]]
+        clusters[number[taker]] = replace(taken, members=taken.members | solids)
+    else:
+        body_of[len(clusters)] = taker
+        clusters.append(Cluster(solids))
+    return replace(
+        answer,
+        structure=replace(answer.structure, clusters=tuple(clusters)),
+        solution=replace(answer.solution, body_of=body_of),
+    )
+
+
+def _upwards(observation: Observation) -> Floats:
+    """The upright of the tracks, towards what most of the rest is."""
+    up = np.asarray(observation.up)
+    return up if _heights(observation.solids, up)[0] > _heights(observation.rows, up)[0] else -up
+
+
+def _hanging_on(low: set[int], high: set[int], members: frozenset[int], observation: Observation) -> frozenset[int]:
+    """Of a cluster's `members` those on the `low` ones' side of the weakest contacts between these and the `high`."""
+    evidence, graph = observation.evidence[-1], networkx.Graph()
+    graph.add_nodes_from(members)
+    for a, b in evidence.near:
+        if a in members and b in members and evidence.touching(a, b):
+            graph.add_edge(a, b, capacity=strength(evidence, a, b))
+    for name, side in (("ground", low), ("deck", high)):
+        graph.add_edges_from((name, i) for i in side)
+    _, (fallen, _) = networkx.minimum_cut(graph, "ground", "deck")
+    return frozenset(fallen) - {"ground"}
 
 
 def undercut(observation: Observation, answer: Answer) -> tuple[str, ...]:
@@ -20,7 +109,7 @@ def undercut(observation: Observation, answer: Answer) -> tuple[str, ...]:
     found: list[str] = []
     for carrier, carried, up in _slewing(observation, answer):
         members = _members(answer)
-        if _heights(members[carried], observation, up)[1] < _limit(members[carrier], observation, up):
+        if _of(members[carried], observation, up)[1] < _limit(members[carrier], observation, up):
             found += [carrier, carried]
     return tuple(found)
 
@@ -29,11 +118,12 @@ def too_low(observation: Observation, answer: Answer) -> dict[int, str]:
     """Solid → the body that it is not of, whatever it touches: the carried one of a slewing joint, for what reaches
     down to where nothing but its carrier is, as a track's belt does, whose upper run passes under the machine."""
     found: dict[int, str] = {}
-    for carrier, carried, up in _slewing(observation, answer):
-        members = _members(answer)
-        limit = _limit(members[carrier], observation, up)
+    members = _members(answer)
+    for _, carried, up, base in _grounds(observation, answer):
+        _, bottom, top = _heights(base, up)
+        limit = bottom + BELOW * (top - bottom)
         low = {s.index for s in observation.solids if float((s.points @ up).min()) < limit}
-        found |= dict.fromkeys(sorted(low - members[carried]), carried)
+        found |= dict.fromkeys(sorted(low - members.get(carried, frozenset())), carried)
     return found
 
 
@@ -46,7 +136,7 @@ def _slewing(observation: Observation, answer: Answer) -> Iterator[tuple[str, st
             continue
         carrier, carried = sorted(bodies, key=template.depth)
         up = structure.axes[structure.hinges[solution.hinge_of[name]].axis].direction
-        below, above = (_heights(members[b], observation, up)[0] for b in (carrier, carried))
+        below, above = (_of(members[b], observation, up)[0] for b in (carrier, carried))
         yield carrier, carried, up if above > below else -up
 
 
@@ -56,13 +146,16 @@ def _members(answer: Answer) -> dict[str, frozenset[int]]:
 
 def _limit(carrier: frozenset[int], observation: Observation, up: Floats) -> float:
     """The height that what is carried does not reach down to."""
-    _, low, high = _heights(carrier, observation, up)
+    _, low, high = _of(carrier, observation, up)
     return low + BELOW * (high - low)
 
 
-def _heights(members: frozenset[int], observation: Observation, up: Floats) -> tuple[float, float, float]:
+def _of(members: frozenset[int], observation: Observation, up: Floats) -> tuple[float, float, float]:
+    return _heights([observation.solids[i] for i in sorted(members)], up)
+
+
+def _heights(solids: Sequence[Solid], up: Floats) -> tuple[float, float, float]:
     """How high some solids are on the whole, by their surfaces, at their lowest and at their highest."""
-    solids = [observation.solids[i] for i in sorted(members)]
     runs = [solid.points @ up for solid in solids]
     weights = np.array([solid.surface for solid in solids]) + 1e-12
     middle = float(np.average([run.mean() for run in runs], weights=weights))

@@ -18,6 +18,8 @@ from yellowiron.model.finding import Finding
 from yellowiron.model.geometry import Color, Finish, Floats, Mesh, Shape
 
 _AGAIN = "Export the file again."
+FARTHER = 100.0
+"""A part that reaches so many times as far as most parts is damaged."""
 
 
 @dataclass(frozen=True, eq=False)
@@ -66,8 +68,10 @@ def assemble(
             empty.append("/".join((*item.path, item.name)))
         else:
             drawn.append((item, shape))
-    # One part far away is damaged; where most are, the unit is another one, which the machine will tell.
-    most = LARGEST if sum(_reach(s, i.transform) > LARGEST for i, s in drawn) <= 0.5 * len(drawn) else LARGEST / FINEST
+    # One part far beyond the others is damaged; where many are far, the unit is another one, which the machine will
+    # tell.
+    usual = float(np.median([_reach(s, i.transform) for i, s in drawn])) if drawn else 0.0
+    most = min(max(LARGEST, FARTHER * usual), LARGEST / FINEST)
     for item, shape in drawn:
         fault = _misplaced(shape, item.transform, most)
         if fault:
