@@ -74,6 +74,7 @@ from yellowiron.alignment.labelling.track_places import (
     without_tracks,
 )
 from yellowiron.alignment.labelling.undercut import regrounded, too_low, undercut
+from yellowiron.alignment.structure.ground_cut import parted
 from yellowiron.alignment.structure.observation import Observation, observe
 from yellowiron.alignment.tolerances import CONTACT
 from yellowiron.alignment.undrawn import undrawn
@@ -155,7 +156,7 @@ def align(
 
     @functools.cache
     def look(contact: float) -> Observation:
-        return replace(observe(machine, plain, contact), up=up, rows=rows)
+        return parted(replace(observe(machine, plain, contact), up=up, rows=rows), plain)
 
     search = Search(look, plain, specifications, choices, edited)
     answer, observation, scores = search.run()

@@ -42,8 +42,8 @@ class Propagation:
     for (`loose`), and those that stand `apart`, with the metres to the rest.
 
     `scores`: what the names say of each solid; `up`: the upright, CAD frame; `rivals`: cluster → the body it could as
-    well be; `suspects`: body → why it is doubtful; `never`: solid → a body that it is not of, whatever it touches; `doubts`: solid → why it is
-    doubtful."""
+    well be; `suspects`: body → why it is doubtful, `doubts`: solid → why it is; `never`: solid → a body that it is not
+    of, whatever it touches."""
 
     observation: Observation
     answer: Answer

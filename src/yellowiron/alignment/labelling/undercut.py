@@ -5,20 +5,12 @@ from __future__ import annotations
 from collections.abc import Iterator, Sequence
 from dataclasses import replace
 
-import networkx
-import numpy as np
-
 from yellowiron.alignment.assignment.answer import Answer
 from yellowiron.alignment.features.solids import Solid
 from yellowiron.alignment.structure.clusters import Cluster
-from yellowiron.alignment.structure.min_cut import strength
+from yellowiron.alignment.structure.ground_cut import BELOW, WITHIN, heights, held_by, upwards
 from yellowiron.alignment.structure.observation import Observation, slewing_joints
 from yellowiron.model.geometry import Floats
-
-BELOW = 0.3
-"""Of the carrier's height: what it carries begins higher up on it, …"""
-WITHIN = 0.75
-"""… and what is lower than this, on the whole, is the carrier's where anything of it reaches so far down."""
 
 
 def regrounded(observation: Observation, answer: Answer) -> tuple[Answer, dict[int, str]]:
@@ -32,13 +24,13 @@ def regrounded(observation: Observation, answer: Answer) -> tuple[Answer, dict[i
     for carrier, carried, up, base in _grounds(observation, answer):
         members = _members(answer)
         own = members[carried if carried in members else carrier]
-        _, bottom, top = _heights(base, up)
-        reach = {i: _heights([observation.solids[i]], up) for i in own}
+        _, bottom, top = heights(base, up)
+        reach = {i: heights([observation.solids[i]], up) for i in own}
         low = {i for i, (middle, _, _) in reach.items() if middle < bottom + WITHIN * (top - bottom)}
         high = {i for i, (_, lowest, _) in reach.items() if lowest >= top}
         if not high or all(lowest >= bottom + BELOW * (top - bottom) for _, lowest, _ in reach.values()):
             continue
-        fallen = _hanging_on(low, high, own, observation)
+        fallen = held_by(low, high, own, observation.evidence[-1])
         if carried in members:
             answer = _moved(answer, fallen, carried, carrier)
             moved |= dict.fromkeys(sorted(fallen), f"it reaches the ground, and was drawn into {carried}")
@@ -62,7 +54,7 @@ def _grounds(observation: Observation, answer: Answer) -> Iterator[tuple[str, st
             solids = [observation.solids[i] for i in sorted(members[carrier])]
             yield carrier, carried, found[carrier, carried], solids
         elif observation.rows and observation.up is not None and len(bodies & members.keys()) == 1:
-            yield carrier, carried, _upwards(observation), observation.rows
+            yield carrier, carried, upwards(observation), observation.rows
 
 
 def _moved(answer: Answer, solids: frozenset[int], giver: str, taker: str) -> Answer:
@@ -84,25 +76,6 @@ def _moved(answer: Answer, solids: frozenset[int], giver: str, taker: str) -> An
     )
 
 
-def _upwards(observation: Observation) -> Floats:
-    """The upright of the tracks, towards what most of the rest is."""
-    up = np.asarray(observation.up)
-    return up if _heights(observation.solids, up)[0] > _heights(observation.rows, up)[0] else -up
-
-
-def _hanging_on(low: set[int], high: set[int], members: frozenset[int], observation: Observation) -> frozenset[int]:
-    """Of a cluster's `members` those on the `low` ones' side of the weakest contacts between these and the `high`."""
-    evidence, graph = observation.evidence[-1], networkx.Graph()
-    graph.add_nodes_from(members)
-    for a, b in evidence.near:
-        if a in members and b in members and evidence.touching(a, b):
-            graph.add_edge(a, b, capacity=strength(evidence, a, b))
-    for name, side in (("ground", low), ("deck", high)):
-        graph.add_edges_from((name, i) for i in side)
-    _, (fallen, _) = networkx.minimum_cut(graph, "ground", "deck")
-    return frozenset(fallen) - {"ground"}
-
-
 def undercut(observation: Observation, answer: Answer) -> tuple[str, ...]:
     """The two bodies of every slewing joint that was found where the carried one, which is higher on the whole, reaches
     about as low as its carrier: parts of the carrier were taken for it."""
@@ -120,7 +93,7 @@ def too_low(observation: Observation, answer: Answer) -> dict[int, str]:
     found: dict[int, str] = {}
     members = _members(answer)
     for _, carried, up, base in _grounds(observation, answer):
-        _, bottom, top = _heights(base, up)
+        _, bottom, top = heights(base, up)
         limit = bottom + BELOW * (top - bottom)
         low = {s.index for s in observation.solids if float((s.points @ up).min()) < limit}
         found |= dict.fromkeys(sorted(low - members.get(carried, frozenset())), carried)
@@ -151,12 +124,4 @@ def _limit(carrier: frozenset[int], observation: Observation, up: Floats) -> flo
 
 
 def _of(members: frozenset[int], observation: Observation, up: Floats) -> tuple[float, float, float]:
-    return _heights([observation.solids[i] for i in sorted(members)], up)
-
-
-def _heights(solids: Sequence[Solid], up: Floats) -> tuple[float, float, float]:
-    """How high some solids are on the whole, by their surfaces, at their lowest and at their highest."""
-    runs = [solid.points @ up for solid in solids]
-    weights = np.array([solid.surface for solid in solids]) + 1e-12
-    middle = float(np.average([run.mean() for run in runs], weights=weights))
-    return middle, min(float(run.min()) for run in runs), max(float(run.max()) for run in runs)
+    return heights([observation.solids[i] for i in sorted(members)], up)
