@@ -29,8 +29,8 @@ TIE = 1e-6
 
 
 def parted(observation: Observation, template: Template) -> Observation:
-    """The observation with one more reading of its contacts, in which nothing holds what is low between the tracks to
-    what is wholly above them; as it is without tracks, where a bearing is drawn, and where no joint slews."""
+    """The observation with its contacts read so that nothing holds what is low between the tracks to what is wholly
+    above them; as it is without tracks, where a bearing is drawn, and where no joint slews."""
     rows, evidence = observation.rows, observation.evidence
     if not rows or observation.up is None or not slewing_joints(template) or not evidence or evidence[-1].races:
         return observation
@@ -57,7 +57,7 @@ def parted(observation: Observation, template: Template) -> Observation:
         welds=tuple(f for f in usual.welds if holds(f.a, f.b)),
         near=tuple(pair for pair in usual.near if holds(*pair)),
     )
-    return replace(observation, evidence=(*evidence, apart))
+    return replace(observation, evidence=(apart,))
 
 
 def held_by(
