@@ -64,7 +64,7 @@ from yellowiron.alignment.labelling.propagation import Propagation
 from yellowiron.alignment.labelling.rams import with_rams
 from yellowiron.alignment.labelling.result import Labels, to_alignment
 from yellowiron.alignment.labelling.review import name_findings, review_findings
-from yellowiron.alignment.labelling.suspects import maybe_unplayed, otherwise, suspect_bodies
+from yellowiron.alignment.labelling.suspects import maybe_unplayed, meagre, otherwise, suspect_bodies
 from yellowiron.alignment.labelling.track_places import (
     no_surer_than_frames,
     on_tracks,
@@ -164,7 +164,10 @@ def align(
     agreement = search.agreement
     held = held_share(answer) >= (HELD_TOLD if edited else HELD) and shows_what_is_special(answer, plain)
     share = drawn_share(answer, observation.solids)
-    explained = held or share >= EXPLAINED
+    # A body of which hardly anything is found lies in another's, welded to it: its joints were found beside it.
+    torn = not is_whole(answer) and bool(meagre(answer.template, _surfaces(observation, answer)))
+    held = held and not torn
+    explained = held or (share >= EXPLAINED and not torn)
     contradicted = agreement < BELIEVED and not is_whole(answer)
     # Joints that are held while much of what is drawn is left over may be another machine's.
     strained = held and share < STRAINED and not is_whole(answer)

@@ -75,13 +75,13 @@ def suspect_bodies(
             around = _within(body, joints.beside, steps=AROUND) - {body}
             words |= dict.fromkeys(sorted(around), f"{body} is not found: its parts may be among these")
     whole = {j.name for j in template.joints if j.type in MOVING} <= {*solution.hinge_of, *solution.slide_of}
-    for body in sorted(_meagre(template, surface or {}) - special) if not whole else ():
+    for body in sorted(meagre(template, surface or {}) - special) if not whole else ():
         around = _within(body, joints.beside, steps=AROUND)
         words |= dict.fromkeys(sorted(around), f"of {body} hardly anything is found: its parts may be among these")
     return words
 
 
-def _meagre(template: Template, surface: Mapping[str, float]) -> set[str]:
+def meagre(template: Template, surface: Mapping[str, float]) -> set[str]:
     """The bodies that have next to nothing of the surface which is usually theirs, among those that were found."""
     usual = {b: template.usual[b].area for b in surface if b in template.usual and template.usual[b].area > 0.0}
     whole, found = sum(usual.values()), sum(surface[b] for b in usual)
