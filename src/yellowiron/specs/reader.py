@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import functools
 import re
 import time
 from collections.abc import Iterable, Iterator, Sequence
@@ -17,10 +18,11 @@ from yellowiron.specs.layout.facing_pages import with_labels
 from yellowiron.specs.layout.nearest import Near, nearest_of
 from yellowiron.specs.layout.page_cells import Cell, cells_of
 from yellowiron.specs.layout.router import statements_of
-from yellowiron.specs.layout.rows.lines import TextLine, lines_of
-from yellowiron.specs.layout.statement import Statement
+from yellowiron.specs.layout.rows.lines import lines_of
+from yellowiron.specs.layout.statement import Statement, join_boxes
 from yellowiron.specs.machines import titled
-from yellowiron.specs.pages.words import Page, read_page
+from yellowiron.specs.pages.strokes import Box
+from yellowiron.specs.pages.words import Page, read_page, type_unit
 from yellowiron.specs.values.stated_configuration import Stated, stated_in
 from yellowiron.support.files.inputs import require_file
 from yellowiron.support.guard import beat, run_guarded
@@ -141,9 +143,12 @@ def read_words(page: Page) -> PageRead:
     if not page.readable:
         return PageRead(page.number, titles=titled(page))
     text = " ".join(w.text for w in page.words)
-    stated = stated_in(text, page.number)
+    stated, titles, unit = stated_in(text, page.number), titled(page), type_unit(page.words)
+    page = page.in_units(unit)
+    statements = tuple(s.in_points(unit) for s in statements_of(page))
+    near = tuple(replace(n, statement=n.statement.in_points(unit)) for n in nearest_of(page))
     return PageRead(
-        page.number, tuple(statements_of(page)), text, stated, nearest_of(page), titled(page), cells_of(page)
+        page.number, statements, text, stated, near, titles, tuple(c.in_points(unit) for c in cells_of(page))
     )
 
 
@@ -160,18 +165,57 @@ def _states(statement: Statement) -> bool:
 
 
 def proven(statements: Sequence[Statement], page: Page) -> list[Statement]:
-    """The statements, each with whether the words of its quote stand together on their page: side by side on a line,
-    or one after the other in the file's own text. The file's order alone says little: many write all labels first."""
-    lines = [text for line in lines_of(page.words) for text in (_printed(line), line.text)]
-    whole = "\n".join(map(_squeezed, (page.text, *lines)))
+    """The statements, each with whether the words of its quote stand together on their page: side by side on a line, or
+    on lines one over the other. The order in which the file has them says nothing: many write all labels first."""
+    lines = [[(_squeezed(p.printed), _squeezed(p.text), p.box) for p in line.pieces] for line in lines_of(page.words)]
+    whole = "\n".join("".join(piece[k] for piece in line) for line in lines for k in (0, 1))
+
+    @functools.cache
+    def together(part: str) -> bool:
+        begins = (
+            (n, i, part[len(end) :], piece[2])
+            for n, line in enumerate(lines)
+            for i, piece in enumerate(line)
+            for end in _ends(piece, part)
+        )
+        return part in whole or any(_goes_on(lines, *begin) for begin in begins)
+
     return [
-        s if all(_squeezed(part) in whole for part in s.quote.split(" … ")) else replace(s, proven=False)
+        s if all(together(_squeezed(part)) for part in s.quote.split(" … ")) else replace(s, proven=False)
         for s in statements
     ]
 
 
-def _printed(line: TextLine) -> str:
-    return " ".join(piece.printed for piece in line.pieces)
+_Piece = tuple[str, str, Box]
+"""A piece of a line without spaces, as printed and without its signs, and where it stands."""
+_LEADING = 2.0
+"""Lines follow each other within this times their height."""
+
+
+def _ends(piece: _Piece, part: str) -> set[str]:
+    """The ends of a piece with which a part of a quote may begin."""
+    return {
+        text[i:] for text in piece[:2] for i in range(len(text)) if text[i] == part[0] and part.startswith(text[i:])
+    }
+
+
+def _goes_on(lines: Sequence[Sequence[_Piece]], number: int, index: int, rest: str, box: Box) -> bool:
+    """Whether the rest of a quote's part follows a piece of a line: in the next one, or under what was read so far,
+    `box`."""
+    following = [(number, i) for i in (index + 1,) if i < len(lines[number])]
+    for under in range(number + 1, len(lines)):
+        _, top, _, bottom = lines[under][0][2]
+        if bottom - box[3] > _LEADING * (bottom - top):
+            break
+        following += [(under, i) for i, (*_, b) in enumerate(lines[under]) if b[0] < box[2] and box[0] < b[2]]
+    for n, i in following:
+        *texts, own = lines[n][i]
+        if any(text.startswith(rest) for text in texts):
+            return True
+        around = join_boxes((box, own))
+        if any(text and rest.startswith(text) and _goes_on(lines, n, i, rest[len(text) :], around) for text in texts):
+            return True
+    return False
 
 
 def _squeezed(text: str) -> str:
