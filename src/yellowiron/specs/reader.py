@@ -167,18 +167,18 @@ def _states(statement: Statement) -> bool:
 def proven(statements: Sequence[Statement], page: Page) -> list[Statement]:
     """The statements, each with whether the words of its quote stand together on their page: side by side on a line, or
     on lines one over the other. The order in which the file has them says nothing: many write all labels first."""
-    lines = [[(_squeezed(p.printed), _squeezed(p.text), p.box) for p in line.pieces] for line in lines_of(page.words)]
-    whole = "\n".join("".join(piece[k] for piece in line) for line in lines for k in (0, 1))
+    lines = [[((_squeezed(p.printed), _squeezed(p.text)), p.box) for p in line.pieces] for line in lines_of(page.words)]
+    whole = "\n".join("".join(texts[k] for texts, _ in line) for line in lines for k in (0, 1))
+    pieces = [({*texts} - {""}, box) for line in lines for texts, box in line]
 
     @functools.cache
     def together(part: str) -> bool:
-        begins = (
-            (n, i, part[len(end) :], piece[2])
-            for n, line in enumerate(lines)
-            for i, piece in enumerate(line)
-            for end in _ends(piece, part)
+        return part in whole or any(
+            text[i] == part[0] and part.startswith(text[i:]) and _goes_on(pieces, part[len(text) - i :], box)
+            for texts, box in pieces
+            for text in texts
+            for i in range(len(text))
         )
-        return part in whole or any(_goes_on(lines, *begin) for begin in begins)
 
     return [
         s if all(together(_squeezed(part)) for part in s.quote.split(" … ")) else replace(s, proven=False)
@@ -186,35 +186,27 @@ def proven(statements: Sequence[Statement], page: Page) -> list[Statement]:
     ]
 
 
-_Piece = tuple[str, str, Box]
-"""A piece of a line without spaces, as printed and without its signs, and where it stands."""
 _LEADING = 2.0
 """Lines follow each other within this times their height."""
 
 
-def _ends(piece: _Piece, part: str) -> set[str]:
-    """The ends of a piece with which a part of a quote may begin."""
-    return {
-        text[i:] for text in piece[:2] for i in range(len(text)) if text[i] == part[0] and part.startswith(text[i:])
-    }
-
-
-def _goes_on(lines: Sequence[Sequence[_Piece]], number: int, index: int, rest: str, box: Box) -> bool:
-    """Whether the rest of a quote's part follows a piece of a line: in the next one, or under what was read so far,
-    `box`."""
-    following = [(number, i) for i in (index + 1,) if i < len(lines[number])]
-    for under in range(number + 1, len(lines)):
-        _, top, _, bottom = lines[under][0][2]
-        if bottom - box[3] > _LEADING * (bottom - top):
-            break
-        following += [(under, i) for i, (*_, b) in enumerate(lines[under]) if b[0] < box[2] and box[0] < b[2]]
-    for n, i in following:
-        *texts, own = lines[n][i]
-        if any(text.startswith(rest) for text in texts):
-            return True
-        around = join_boxes((box, own))
-        if any(text and rest.startswith(text) and _goes_on(lines, n, i, rest[len(text) :], around) for text in texts):
-            return True
+def _goes_on(pieces: Sequence[tuple[set[str], Box]], rest: str, begin: Box) -> bool:
+    """Whether the rest of a quote goes on from the piece that it begins in: behind the last piece, or under what was
+    read so far."""
+    waiting, seen = [(rest, begin, begin)], set[tuple[int, Box]]()
+    while waiting:
+        rest, last, read = waiting.pop()
+        high = last[3] - last[1]
+        behind = [one for one in pieces if one[1][0] >= last[2] - 1 and abs(one[1][3] - last[3]) < high / 2]
+        under = [one for one in pieces if high / 2 <= one[1][3] - last[3] <= _LEADING * high and one[1][0] < read[2]
+                 and read[0] < one[1][2]]  # fmt: skip
+        for texts, box in [*sorted(behind, key=lambda one: one[1][0])[:1], *under]:
+            for text in texts:
+                if text.startswith(rest):
+                    return True
+                if rest.startswith(text) and (len(rest), box) not in seen:
+                    seen.add((len(rest), box))
+                    waiting.append((rest[len(text) :], box, join_boxes((read, box))))
     return False
 
 

@@ -90,14 +90,17 @@ class Page:
         def boxes(own: Sequence[Box]) -> tuple[Box, ...]:
             return tuple((a / unit, b / unit, c / unit, d / unit) for a, b, c, d in own)
 
-        words = (
-            replace(w, x0=w.x0 / unit, x1=w.x1 / unit, baseline=w.baseline / unit, size=w.size / unit)
-            for w in self.words
-        )
-        rules = (DrawnRule(r.x0 / unit, r.top / unit, r.x1 / unit, r.bottom / unit) for r in self.rules)
-        size = {"width": self.width / unit, "height": self.height / unit}
         return replace(
-            self, words=tuple(words), rules=tuple(rules), bars=boxes(self.bars), leaders=boxes(self.leaders), **size
+            self,
+            width=self.width / unit,
+            height=self.height / unit,
+            words=tuple(
+                replace(w, x0=w.x0 / unit, x1=w.x1 / unit, baseline=w.baseline / unit, size=w.size / unit)
+                for w in self.words
+            ),
+            rules=tuple(DrawnRule(*box) for box in boxes([(r.x0, r.top, r.x1, r.bottom) for r in self.rules])),
+            bars=boxes(self.bars),
+            leaders=boxes(self.leaders),
         )
 
     @property
