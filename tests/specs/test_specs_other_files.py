@@ -63,11 +63,11 @@ def test_letters_in_any_order_are_the_words_that_they_print(seed: int) -> None:
     ]  # fmt: skip
 
 
-def test_a_space_that_the_file_has_parts_what_touches() -> None:
+def test_a_space_that_the_file_has_parts_what_touches_but_not_what_is_written_from_its_right_end() -> None:
     first, second = glyphs("12", 40, 100), glyphs("500", 48, 100)
-    assert len(_joined([second, first])) == 1
+    assert len(_joined([first, second])) == len(_joined([second, first])) == 1
     first[-1].spaced = True
-    assert len(_joined([second, first])) == 2
+    assert len(_joined([first, second])) == 2 and len(_joined([second, first])) == 1
 
 
 def page(*rows: tuple[str, float, float]) -> Page:

@@ -27,8 +27,8 @@ _DRAWN = (100, 0.12)
 """Letters drawn as outlines, and their share of the page's characters, from which on they are text of it."""
 _TYPE = 8.0
 """The size of a sheet's type in its units."""
-_OVER = 0.2
-"""Of the type size, by which a run of characters may lie over the one that it goes on."""
+_OVER, _TOUCH = 0.2, 0.1
+"""Of the type size, by which a run of characters may lie over the one that it goes on; within which it touches it."""
 _LEADER = re.compile(r"[.·•_…]{3,}|^[.·•_…]+$|(?<=[^\W\d_])[-–—]{2,}$")
 
 
@@ -239,12 +239,15 @@ def _joined(runs: list[list[_Glyph]]) -> list[list[_Glyph]]:
     begun: set[int] = set()
     for index in ordered:
         first, last = runs[index][0], runs[index][-1]
+        # a space behind a run is beside what the file has before it only where that is written from its right end
+        gap = _TOUCH if last.spaced else _gap(last)
         near = ordered[
-            bisect_left(begins, last.x1 - _OVER * last.size) : bisect_right(begins, last.x1 + _gap(last) * last.size)
+            bisect_left(begins, last.x1 - _OVER * last.size) : bisect_right(begins, last.x1 + gap * last.size)
         ]
         touching = [
             i for i in near
-            if runs[i][0].x0 > first.x0 and i not in begun and not last.spaced and _alike(last, runs[i][0])
+            if runs[i][0].x0 > first.x0 and i not in begun and _alike(last, runs[i][0])
+            and (i < index or not last.spaced)
         ]  # fmt: skip
         if touching:
             after[index] = min(touching, key=lambda i: abs(runs[i][0].x0 - last.x1))
