@@ -25,10 +25,10 @@ _SIGNS = re.compile(r"[\u00b9\u00b2\u00b3\u2070-\u2079]+(?:[,)\u207e][\u00b9\u00
 """Raised digits that are characters of their own."""
 _DRAWN = (100, 0.12)
 """Letters drawn as outlines, and their share of the page's characters, from which on they are text of it."""
-_TYPE = 8.0
-"""The size of a sheet's type in its units."""
-_OVER, _TOUCH = 0.2, 0.1
-"""Of the type size, by which a run of characters may lie over the one that it goes on; within which it touches it."""
+_TYPES, _TYPE = (5.0, 12.0), 8.0
+"""Points between which the type of a sheet is, at its median; the size in units of a page where it is not."""
+_TOUCH = 0.1
+"""Of the type size; runs of characters that are no farther apart are one word, whatever stands between in the file."""
 _LEADER = re.compile(r"[.·•_…]{3,}|^[.·•_…]+$|(?<=[^\W\d_])[-–—]{2,}$")
 
 
@@ -152,8 +152,9 @@ def read_page(page: Any, number: int) -> Page:
 
 def type_unit(words: Sequence[Word]) -> float:
     """So many points are a unit of a page of which the type has, at its median, the usual size: what is near or thin
-    on a page depends on that, and not on the paper."""
-    return statistics.median(w.size for w in words) / _TYPE if words else 1.0
+    on a page depends on that, and not on the paper. 1 where it is about as large as a sheet's."""
+    size = statistics.median(w.size for w in words) if words else _TYPE
+    return 1.0 if _TYPES[0] <= size <= _TYPES[1] else size / _TYPE
 
 
 def _placement(page: Any) -> Place:
@@ -239,11 +240,10 @@ def _joined(runs: list[list[_Glyph]]) -> list[list[_Glyph]]:
     begun: set[int] = set()
     for index in ordered:
         first, last = runs[index][0], runs[index][-1]
-        # a space behind a run is beside what the file has before it only where that is written from its right end
-        gap = _TOUCH if last.spaced else _gap(last)
         near = ordered[
-            bisect_left(begins, last.x1 - _OVER * last.size) : bisect_right(begins, last.x1 + gap * last.size)
+            bisect_left(begins, last.x1 - _TOUCH * last.size) : bisect_right(begins, last.x1 + _TOUCH * last.size)
         ]
+        # a space behind a run is on its other side where that is written from its right end
         touching = [
             i for i in near
             if runs[i][0].x0 > first.x0 and i not in begun and _alike(last, runs[i][0])
