@@ -22,7 +22,7 @@ from yellowiron.specs.pages.fills import edges_of_fills
 from yellowiron.specs.pages.strokes import SNAP, Box, DrawnRule
 from yellowiron.specs.pages.words import Page, Word
 
-_WALL = 5.0
+_WALL = 6.0
 """A vertical rule shorter than this is a tick or part of a letter."""
 _MOST_EDGES = 3000
 """More are no table's."""

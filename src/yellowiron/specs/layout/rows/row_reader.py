@@ -160,12 +160,8 @@ def _broken_caption(rows: Sequence[Sequence[TextLine]]) -> list[TextPiece]:
     below = rows[-1][0].pieces[0]
     for row in reversed(rows[:-1]):
         piece = row[0].pieces[0]
-        alike = (
-            abs(piece.x0 - below.x0) < 0.2 * below.size
-            and piece.bold == below.bold
-            and abs(piece.size - below.size) < 0.1
-        )
-        close = -0.15 < (below.box[1] - piece.box[3]) / below.size < 0.45
+        alike = abs(piece.x0 - below.x0) < 1 and piece.bold == below.bold and abs(piece.size - below.size) < 0.1
+        close = 0 < below.box[1] - piece.box[3] < 0.45 * below.size
         if len(row) != 1 or len(row[0].pieces) != 1 or not alike or not close or kind_of(piece) != "text":
             break
         found.insert(0, piece)
