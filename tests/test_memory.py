@@ -8,8 +8,9 @@ import shutil
 import subprocess
 import sys
 from collections.abc import Iterator
+from dataclasses import replace
 from pathlib import Path
-from typing import Any
+from typing import Any, cast
 
 import numpy as np
 import pytest
@@ -19,7 +20,7 @@ from hypothesis import strategies as st
 from yellowiron import build, cad, checks, stages, usd
 from yellowiron.cad.dependence import files_of
 from yellowiron.library import load
-from yellowiron.model.geometry import Mesh
+from yellowiron.model.geometry import Mesh, PlaneFeature, SphereFeature
 from yellowiron.support.caching import content, disk
 from yellowiron.support.caching.content import content_of
 from yellowiron.support.caching.disk import FRESH, VARIABLE, kept
@@ -64,6 +65,23 @@ def test_content_does_not_hang_on_what_is_shared_or_on_sets() -> None:
         content_of(object())
     with pytest.raises(TypeError, match="has no content"):
         content_of(np.array([object()]))
+
+
+def test_rows_of_plain_values_are_told_apart_by_kind_and_content() -> None:
+    centre = (1.0, 2.0, 3.0)
+    shared = (SphereFeature(centre, 1.0, True, 3.0), SphereFeature(centre, 2.0, False, 4.0))
+    own = (SphereFeature((1.0, 2.0, 3.0), 1.0, True, 3.0), SphereFeature((1.0, 2.0, 3.0), 2.0, False, 4.0))
+    asked = content_of(shared)
+    assert content_of(own) == asked
+    assert asked not in {
+        content_of(other)
+        for other in (
+            shared[::-1], shared[:1], (shared[0], replace(shared[1], radius=2)), (*shared, None),
+            tuple(PlaneFeature(s.center, s.center, s.radius) for s in shared),
+            (shared[0], replace(shared[1], radius=np.float64(2.0))),
+            (shared[0], replace(shared[1], center=cast(Any, shared[0]))),
+        )
+    }  # fmt: skip
 
 
 def test_a_value_is_digested_once_while_it_lives(monkeypatch: pytest.MonkeyPatch) -> None:

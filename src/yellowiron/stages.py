@@ -18,10 +18,12 @@ from yellowiron.alignment import (
     declared_roles,
     in_one_unit,
     of_drawn,
+    other_size,
     parts_in,
     read_alignment,
     reviewed,
     said_in,
+    scaled,
     squared,
     to_scale,
     turned_back,
@@ -43,6 +45,7 @@ from yellowiron.model.mechanism import Mechanism
 from yellowiron.model.rows import expand
 from yellowiron.model.specification import Specifications, fold
 from yellowiron.model.template import Template, choose, in_position
+from yellowiron.said import without_cylinders
 from yellowiron.solved import Solved
 from yellowiron.support.caching.disk import kept
 from yellowiron.support.caching.recent import recent
@@ -107,12 +110,43 @@ def find_roles(
     other meshes taken out, where that finds a barrel and a rod that were missing; where bodies are missing, or every
     mesh may be a whole one, taken apart, if that finds a limb, two wheels, or most of what is missing. `earlier` is an
     alignment file whose edits hold, and whose parts are the model's as long as a person decides on them; `decisions` go
-    before them. Parts in another unit than the rest are put in its unit first, and are for review."""
+    before them. Parts in another unit than the rest are put in its unit first, and are for review; and the whole model
+    in the sheet's size, where what was found is another size throughout."""
     assembly, units = in_one_unit(assembly)
-    model, best = _roles_in_one_unit(
-        assembly, template, specifications, earlier=earlier, data=data, choices=choices, decisions=decisions
-    )
+
+    def found(assembly: Assembly, specifications: Specifications) -> tuple[Assembly, Alignment]:
+        return _roles_in_one_unit(
+            assembly, template, specifications, earlier=earlier, data=data, choices=choices, decisions=decisions
+        )
+
+    model, best = found(assembly, specifications)
+    other = other_size(assembly, _sizes(model, template, best, specifications, choices or {}))
+    if other is not None:
+        factor, finding = other
+        if factor != 1.0:
+            # A size that is known within a tenth tells no cylinder by its bore.
+            model, best = found(scaled(assembly, factor), without_cylinders(specifications, template))
+        model = replace(model, findings=(*model.findings, finding))
     return model, reviewed(best, model, units)
+
+
+def _sizes(
+    assembly: Assembly,
+    template: Template,
+    alignment: Alignment,
+    specifications: Specifications,
+    choices: Mapping[str, str],
+) -> Mapping[str, tuple[float, float]]:
+    """`kinematics.still_sizes` of what was found; none where the sheet settles none, or no machine was found."""
+    measured = {fold(m.specification) for m in template.measurements if not m.steps}
+    if not any(fold(name) in measured for name in specifications.values):
+        return {}
+    chosen = expand(as_said(template, alignment, {**alignment.choices, **choices}), alignment.counts)
+    try:
+        mechanism = build_mechanism(assembly, chosen, alignment, specifications, name=assembly.name)
+        return kinematics.still_sizes(mechanism)
+    except MechanismError:
+        return {}
 
 
 def _roles_in_one_unit(

@@ -19,7 +19,7 @@ from yellowiron.alignment import align
 from yellowiron.alignment.assignment.answer import Answer
 from yellowiron.alignment.assignment.search import Search
 from yellowiron.alignment.features.solids import size_of, solids_of
-from yellowiron.alignment.fusion import reading
+from yellowiron.alignment.fusion import judge, reading
 from yellowiron.alignment.fusion.annealing import Annealing, against, labelled, leads
 from yellowiron.alignment.fusion.best import Best
 from yellowiron.alignment.fusion.bonds import ENOUGH, Bond, _kin, _together, _welded, out_of_line
@@ -168,6 +168,28 @@ def test_conditionals_are_differences_of_the_score(excavator: Template, seed: in
         other[piece] = one
         gain = score_of(field, other) - score_of(field, labels)
         assert found[one] - found[labels[piece]] == pytest.approx(gain, abs=1e-6)
+
+
+@settings(max_examples=10, deadline=None)
+@given(seed=st.integers(0, 10_000))
+def test_labellings_score_together_what_they_score_alone(excavator: Template, seed: int) -> None:
+    rng = np.random.default_rng(seed)
+    template = choose(excavator, {})
+    bodies = [r.name for r in template.roles if r.rigid]
+    votes = [{b: {"name": float(rng.random())} for b in bodies} for _ in range(40)]
+    bonds = [_bond(a, b, alike=bool(rng.random() < 0.2)) for a in range(40) for b in range(a) if rng.random() < 0.4]
+    lined = np.triu(rng.random((40, 40)) < 0.5, 1)
+    field = field_of(votes, bonds, template, weights(), lined | lined.T)
+    labels = rng.integers(len(bodies) + 1, size=(300, 40))
+    assert len(labels) * len(bonds) > judge.AT_ONCE
+    alone = [score_of(field, one) for one in labels]
+    assert judge.scores_of(field, labels) == pytest.approx(alone)
+    # What is off the line of the others of its half of a cylinder.
+    straight = replace(field, astray=np.zeros_like(field.astray), off=field.off[:0])
+    halves = field.halves[labels]
+    alike = (labels[:, :, None] == labels[:, None]) & halves[:, :, None] & halves[:, None]
+    lost = (alike * np.triu(field.astray, 1)).sum(axis=(1, 2))
+    assert np.array(alone) - judge.scores_of(straight, labels) == pytest.approx(lost)
 
 
 def test_labels_that_have_settled_are_mended_again_once_they_are_others(excavator: Template) -> None:

@@ -8,13 +8,19 @@ import numpy as np
 import pytest
 
 from kit.machines.synthetic import loader
-from yellowiron.alignment import align, to_scale
+from kit.scene import scene
+from yellowiron import kinematics, stages
+from yellowiron.alignment import align, other_size, to_scale
 from yellowiron.alignment.assignment.unit_scale import scaled
 from yellowiron.library import is_sheet_only, list_templates, load_template
+from yellowiron.mechanism import build_mechanism
+from yellowiron.model.alignment import Alignment
 from yellowiron.model.assembly import Assembly
 from yellowiron.model.finding import Finding
+from yellowiron.model.rows import expand
 from yellowiron.model.specification import Specification, Specifications
-from yellowiron.model.template import Template
+from yellowiron.model.template import Template, choose
+from yellowiron.stages import find_roles
 
 
 @pytest.fixture(scope="module")
@@ -162,3 +168,71 @@ def test_every_type_has_a_usual_length() -> None:
             continue
         usual = [w.usual_length for w in load_template(kind).wanted if w.usual_length is not None]
         assert len(usual) == 1 and 2.0 < usual[0][0] < usual[0][1] < 80.0, kind
+
+
+@pytest.mark.parametrize(("ratios", "factor"), [
+    ((2.0, 2.1, 1.9, 2.3), 4.2**0.5),  # an artist's proportions
+    ((0.6, 0.62, 0.58), 0.6),
+    ((2.0, 2.1), None),  # two are too few
+    ((1.1, 1.12, 1.15), None),  # a sister of the machine
+    ((2.0, 1.0, 1.4, 0.8, 2.0), None),  # they do not agree
+])  # fmt: skip
+def test_lengths_that_agree_tell_the_size(
+    ratios: tuple[float, ...], factor: float | None, template: Template, drawn: Assembly
+) -> None:
+    sizes = {f"length {k}": (1.5, 1.5 * ratio) for k, ratio in enumerate(ratios)}
+    mesh = replace(drawn, shapes={key: replace(shape, exact=False) for key, shape in drawn.shapes.items()})
+    found = other_size(mesh, sizes)
+    if factor is None:
+        assert found is None
+        assert other_size(drawn, sizes) is None
+        return
+    assert found is not None
+    assert found[0] == pytest.approx(factor, rel=1e-9)
+    assert found[1].code == "ALN034"
+    assert f"scaled by {factor:.3g}" in found[1].message
+    exact = other_size(drawn, sizes)  # CAD is taken at its word
+    assert exact is not None
+    assert exact[0] == 1.0
+    assert "scaled" not in exact[1].message
+
+
+@pytest.mark.parametrize("exact", [True, False])
+def test_exact_cad_is_recognised_once_and_as_the_sheet_has_it(
+    exact: bool, drawn: Assembly, template: Template, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    """Only what is scaled by lengths that agree within a tenth hears no bores."""
+    model = replace(drawn, shapes={key: replace(shape, exact=exact) for key, shape in drawn.shapes.items()})
+    sheet_ = sheet(Overall_Width=3.0, Lift_Cylinder_Bore=0.16)
+    heard = []
+
+    def roles(assembly: Assembly, template: Template, told: Specifications, **_: object) -> tuple[Assembly, Alignment]:
+        heard.append((round(size(assembly) / size(drawn), 6), told.number("Lift Cylinder Bore")))
+        return assembly, Alignment("wheel_loader", np.eye(4), ())
+
+    monkeypatch.setattr(stages, "_roles_in_one_unit", roles)
+    monkeypatch.setattr(stages, "_sizes", lambda *_: dict.fromkeys("abc", (1.0, 2.0)))
+    found, _ = find_roles(model, template, sheet_)
+    assert heard == ([(1.0, 0.16)] if exact else [(1.0, 0.16), (2.0, None)])
+    assert [f.code for f in found.findings] == ["ALN034"]
+
+
+@pytest.mark.slow
+def test_a_model_of_another_size_than_its_sheet_is_built_in_the_sheets() -> None:
+    """Lengths that hang on no pose, measured on the sound machine, are the sheet of one that is drawn at two thirds."""
+    given = scene("excavator", 3, "sound")
+    excavator = load_template("excavator")
+    assembly, found = find_roles(given.assembly, excavator, Specifications())
+    chosen = expand(choose(excavator, found.choices), found.counts)
+    names = {m.specification for m in excavator.measurements if not m.steps and m.unit == "m"}
+    all_ok = Specifications({n: Specification(n, 1.0, "m", "ok") for n in names})
+    mechanism = build_mechanism(assembly, chosen, found, all_ok, name="found")
+    true = {n: model for n, (model, _) in kinematics.still_sizes(mechanism).items()}
+    assert len(true) >= 5
+    printed = Specifications({n: Specification(n, round(v, 2), "m", "ok") for n, v in true.items()})
+    model, again = find_roles(scaled(given.assembly, 0.67), excavator, printed)
+    assert size(model) == pytest.approx(size(assembly), rel=0.02)
+    assert [f.code for f in model.findings if f.code == "ALN034"] == ["ALN034"]
+    assert {p.part: p.body for p in again.parts} == {p.part: p.body for p in found.parts}
+    same, _ = find_roles(given.assembly, excavator, printed)
+    assert size(same) == size(assembly)

@@ -4,16 +4,20 @@ from __future__ import annotations
 
 from dataclasses import replace
 from pathlib import Path
+from types import SimpleNamespace
+from typing import cast
 
 from mechanism_machine import A, C, machine, specifications, template
 
 from yellowiron import kinematics, usd
 from yellowiron.checks import check
 from yellowiron.mechanism import build_mechanism
+from yellowiron.mechanism.build import _with_idle_held
+from yellowiron.mechanism.joints.tree import Tree
 from yellowiron.model.alignment import Alignment
 from yellowiron.model.geometry import Floats
 from yellowiron.model.mechanism import Mechanism
-from yellowiron.model.template import JointTemplate, Role, Template
+from yellowiron.model.template import Follows, JointTemplate, Role, Template
 from yellowiron.stages import complete_mechanism
 from yellowiron.support.vectors import triple
 
@@ -100,6 +104,18 @@ def test_a_barrel_without_its_rod_does_not_swing_freely() -> None:
     assert mechanism.joint("base2barrel").held
     assert mechanism.mobility is not None
     assert mechanism.mobility.computed == mechanism.mobility.expected
+
+
+def test_what_follows_a_joint_that_stands_stands() -> None:
+    """A boom's sections of which nothing drives the first: the next would follow what is no coordinate."""
+    slide = solved().joint("slide")
+    first, free = replace(slide, name="first", drive=None), replace(slide, name="first", drive=None, free=True)
+    second = replace(slide, name="second", drive=None, follows=Follows("first"))
+    third = replace(second, name="third", follows=Follows("second"))
+    tree = cast(Tree, SimpleNamespace(loops=()))
+    held = _with_idle_held((first, second, third), tree, [])
+    assert all(joint.held and joint.follows is None for joint in held)
+    assert _with_idle_held((free, second, third), tree, []) == (free, second, third)
 
 
 def test_a_barrel_without_its_rod_does_not_dangle_from_a_ball(tmp_path: Path) -> None:

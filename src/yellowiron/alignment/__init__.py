@@ -12,7 +12,8 @@ under another choice of a variant · `ALN006` a hydraulic cylinder is not drawn 
 `ALN007` no body is left for parts that could move · `ALN008` a cylinder is to one side · `ALN009` parts stand apart and
 are left out · `ALN010` there seems to be more than one machine · `ALN011` the wheels have no tyres · `ALN016` a joint's
 axis is estimated · `ALN026` to `ALN028`: see `files.decisions` · `ALN029` one half is drawn ·
-`ALN032` a variant is in doubt · `ALN033` parts in another unit.
+`ALN032` a variant is in doubt · `ALN033` parts in another unit ·
+`ALN034` another size than the sheet's machine.
 """
 
 from __future__ import annotations
@@ -24,7 +25,7 @@ from yellowiron.support.lazy import lazy_names
 if TYPE_CHECKING:
     from yellowiron.alignment.apart import between_apart, between_found
     from yellowiron.alignment.assignment.sides import twin_role
-    from yellowiron.alignment.assignment.unit_scale import to_scale
+    from yellowiron.alignment.assignment.unit_scale import other_size, scaled, to_scale
     from yellowiron.alignment.discovery.discover import discover
     from yellowiron.alignment.discovery.robot import declared_roles, discover_declared
     from yellowiron.alignment.facing import named_direction
@@ -62,6 +63,7 @@ __all__ = [
     "in_one_unit",
     "named_direction",
     "of_drawn",
+    "other_size",
     "parse_machine",
     "parse_rules",
     "parts_in",
@@ -70,6 +72,7 @@ __all__ = [
     "read_values",
     "reviewed",
     "said_in",
+    "scaled",
     "squared",
     "to_scale",
     "turned_back",
@@ -95,6 +98,7 @@ __getattr__, __dir__ = lazy_names(
         "fits": "files.decisions",
         "in_one_unit": "mixed_units",
         "named_direction": "facing",
+        "other_size": "assignment.unit_scale",
         "of_drawn": "labelling.halves",
         "parse_machine": "files.whole",
         "parse_rules": "files.decisions",
@@ -104,6 +108,7 @@ __getattr__, __dir__ = lazy_names(
         "read_values": "files.alignment_json",
         "reviewed": "mixed_units",
         "said_in": "files.alignment_json",
+        "scaled": "assignment.unit_scale",
         "squared": "square",
         "to_scale": "assignment.unit_scale",
         "turned_back": "square",

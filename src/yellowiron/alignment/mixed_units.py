@@ -59,6 +59,7 @@ LOST = "it is out of all scale, and no unit explains it"
 DOUBTED = "it touches nothing of the rest, and may be in another unit than the rest"
 RATIOS = tuple(sorted({float(f"{a / b:.12g}") for a, b in itertools.permutations(UNITS.values(), 2)}))
 """What a part is to be enlarged by that was written in one unit and read in another."""
+_RATIOS = np.array(RATIOS)
 
 
 @dataclass(frozen=True)
@@ -96,8 +97,9 @@ def in_one_unit(assembly: Assembly) -> tuple[Assembly, OtherUnits]:
     for _ in range(ROUNDS):
         rest = _Rest(assembly, [p.id for k, p in enumerate(parts) if boxes.core[k] or p.id in mended], boxes.size)
         found = {}
+        now = {p.id: p for p in assembly.parts}
         for i in (i for i in guesses if parts[i].id not in mended):
-            best = rest.best(assembly.part(parts[i].id), guesses[i], out=boxes.out(i), suspects=suspects)
+            best = rest.best(now[parts[i].id], guesses[i], out=boxes.out(i), suspects=suspects)
             if best is not None:
                 found[parts[i].id] = best
         if not found:
@@ -167,14 +169,14 @@ class _Boxes:
         low, high = low - slack, high + slack
         diagonal = float(np.linalg.norm(self.high[i] - self.low[i]))
         found = []
-        for ratio, own in itertools.product(RATIOS, (False, True) if origin.any() else (False,)):
+        large = _RATIOS * diagonal > SMALL * self.size
+        for own in (False, True) if origin.any() else (False,):
             about = origin if own else np.zeros(3)
-            within = (about + ratio * (self.low[i] - about) >= low).all()
-            within = within and self._amid(i, about, ratio)
-            within = within and (about + ratio * (self.high[i] - about) <= high).all()
-            if within and ratio * diagonal > SMALL * self.size and (ratio > 1.0 or self.out(i)):
-                found.append(_Guess(ratio, own))
-        return found
+            within = (about + _RATIOS[:, None] * (self.low[i] - about) >= low).all(axis=1)
+            within &= (about + _RATIOS[:, None] * (self.high[i] - about) <= high).all(axis=1)
+            ratios = [RATIOS[k] for k in np.flatnonzero(within & large).tolist()]
+            found += [_Guess(r, own) for r in ratios if self._amid(i, about, r) and (r > 1.0 or self.out(i))]
+        return sorted(found, key=lambda guess: (guess.ratio, guess.own))
 
     def _amid(self, i: int, about: Floats, ratio: float) -> bool:
         """Whether what lies under the machine would be in it, enlarged so about a point."""
@@ -193,11 +195,10 @@ class _Boxes:
     def _is_out(self, i: int) -> bool:
         if self._giant(i) or not self.core[i]:
             return True
-        rest = self.core.copy()
-        rest[i] = False
-        low, high = self.low[rest], self.high[rest]
-        gaps = np.maximum(0.0, np.maximum(low - self.high[i], self.low[i] - high))
-        return bool(np.linalg.norm(gaps, axis=1).min() > FAR * self.size)
+        apart = np.maximum(0.0, np.maximum(self.low - self.high[i], self.low[i] - self.high))
+        beside = self.core & (np.einsum("ij,ij->i", apart, apart) <= (FAR * self.size) ** 2)
+        beside[i] = False
+        return not beside.any()
 
     def lost(self, i: int) -> bool:
         """True for what no machine's part can be, and no ground."""
@@ -251,13 +252,15 @@ class _Rest:
         self._triangles = np.array([len(s.shape.mesh.triangles) for s in self._solids])
         self._surfaces = np.array([s.surface for s in self._solids])
         self._volumes = np.array([s.volume for s in self._solids])
+        self._of_count: dict[int, tuple[NDArray[np.intp], Floats]] = {}
         self._planes = np.array([k for k, s in enumerate(self._solids) for _ in s.plane_points], dtype=np.intp)
         self._points = np.concatenate([np.zeros((0, 3)), *(s.plane_points for s in self._solids)])
         self._normals = np.concatenate([np.zeros((0, 3)), *(s.plane_normals for s in self._solids)])
-        self._round = [(k, c) for k, s in enumerate(self._solids) for c in s.cylinders]
-        self._centres = np.array([c.center for _, c in self._round]).reshape(-1, 3)
-        self._directions = np.array([c.direction for _, c in self._round]).reshape(-1, 3)
-        self._radii = np.array([c.radius for _, c in self._round])
+        turned = [(k, c) for k, s in enumerate(self._solids) for c in s.cylinders]
+        self._turned = np.array([k for k, _ in turned], dtype=np.intp)
+        self._centres = np.array([c.center for _, c in turned]).reshape(-1, 3)
+        self._directions = np.array([c.direction for _, c in turned]).reshape(-1, 3)
+        self._radii = np.array([c.radius for _, c in turned])
 
     def best(
         self, part: Part, guesses: Sequence[_Guess], *, out: bool, suspects: Collection[str]
@@ -330,31 +333,43 @@ class _Rest:
         """The parts of the machine on whose flat or round faces a part's lie."""
         near, found = self._near(solid), set[int]()
         tolerance = min(self._exact, CLOSE * solid.size)
-        for point, normal in zip(solid.plane_points, solid.plane_normals, strict=True):
-            facing = (self._normals @ normal < -FACING) & near[self._planes]
-            on = np.abs((self._points - point) @ normal) <= tolerance
-            # One face's middle is before the other part, at least.
-            beside = ((point >= self._low - tolerance) & (point <= self._high + tolerance)).all(axis=1)[self._planes]
-            beside |= ((self._points >= solid.low - tolerance) & (self._points <= solid.high + tolerance)).all(axis=1)
-            found |= set(self._planes[facing & on & beside].tolist())
-        for c in solid.cylinders if len(self._radii) else ():
-            delta = self._centres - c.center
-            along = np.abs(self._directions @ c.direction) >= PARALLEL
+        rows = np.flatnonzero(near[self._planes])
+        planes, points, normals = self._planes[rows], self._points[rows], self._normals[rows]
+        # One face's middle is before the other part, at least.
+        within = ((points >= solid.low - tolerance) & (points <= solid.high + tolerance)).all(axis=1)
+        low, high = self._low[planes] - tolerance, self._high[planes] + tolerance
+        for point, normal in zip(solid.plane_points, solid.plane_normals, strict=True) if len(rows) else ():
+            facing = (normals @ normal < -FACING) & (np.abs((points - point) @ normal) <= tolerance)
+            beside = within | ((point >= low) & (point <= high)).all(axis=1)
+            found |= set(planes[facing & beside].tolist())
+        some = np.flatnonzero(near[self._turned])
+        for c in solid.cylinders if len(some) else ():
+            delta = self._centres[some] - c.center
+            along = np.abs(self._directions[some] @ c.direction) >= PARALLEL
             off = np.linalg.norm(delta - (delta @ c.direction)[:, None] * c.direction, axis=1)
-            equal = np.abs(self._radii - c.radius) <= np.maximum(tolerance, TWIN * c.radius)
-            found |= {
-                self._round[k][0] for k in np.flatnonzero(along & (off <= tolerance) & equal) if near[self._round[k][0]]
-            }
+            equal = np.abs(self._radii[some] - c.radius) <= np.maximum(tolerance, TWIN * c.radius)
+            found |= set(self._turned[some[along & (off <= tolerance) & equal]].tolist())
         return found
 
     def _twin(self, solid: Solid, ratio: float) -> str | None:
         """A part of the machine that is exactly like a part so many times as large, or its mirror image."""
         count, surface, volume = len(solid.shape.mesh.triangles), ratio**2 * solid.surface, ratio**3 * solid.volume
-        of_count = np.flatnonzero(self._triangles == count) if count > PLAIN else np.zeros(0, dtype=np.intp)
-        alike = np.abs(self._surfaces[of_count] / surface - 1.0) <= ALIKE
-        alike &= np.abs(self._volumes[of_count] - volume) <= 2 * ALIKE * self._volumes[of_count]
-        alike &= self._ids[of_count] != solid.part.id
-        return str(self._ids[of_count[int(np.argmax(alike))]]) if alike.any() else None
+        if count <= PLAIN:
+            return None
+        some = self._with_surface(count, (1.0 - 2.0 * ALIKE) * surface, (1.0 + 2.0 * ALIKE) * surface)
+        alike = np.abs(self._surfaces[some] / surface - 1.0) <= ALIKE
+        alike &= np.abs(self._volumes[some] - volume) <= 2 * ALIKE * self._volumes[some]
+        alike &= self._ids[some] != solid.part.id
+        return str(self._ids[some[alike].min()]) if alike.any() else None
+
+    def _with_surface(self, count: int, least: float, most: float) -> NDArray[np.intp]:
+        """The machine's parts of so many triangles whose surface is between two, m²."""
+        if count not in self._of_count:
+            of_count = np.flatnonzero(self._triangles == count)
+            order = of_count[np.argsort(self._surfaces[of_count], kind="stable")]
+            self._of_count[count] = (order, self._surfaces[order])
+        order, surfaces = self._of_count[count]
+        return order[slice(*np.searchsorted(surfaces, (least, most)))]
 
 
 def _enlarged(part: Part, assembly: Assembly, guess: _Guess) -> tuple[Part, dict[str, Shape]]:

@@ -43,7 +43,12 @@ if TYPE_CHECKING:
     from yellowiron.kinematics.levers import lever_table
     from yellowiron.kinematics.measuring.axis_placement import OpenAxis, PlacedAxes, place_axes
     from yellowiron.kinematics.measuring.calibration import calibrate
-    from yellowiron.kinematics.measuring.measurement import key_poses, measure, measure_and_pose
+    from yellowiron.kinematics.measuring.measurement import (
+        key_poses,
+        measure,
+        measure_and_pose,
+        still_sizes,
+    )
     from yellowiron.kinematics.poses import pose_tables, stroke_poses
     from yellowiron.kinematics.solver.branches import branch_pivots, branch_sine
     from yellowiron.kinematics.solver.chain import ClosedChain, KinematicsError, State
@@ -76,6 +81,7 @@ __all__ = [
     "place_axes",
     "pose_tables",
     "started",
+    "still_sizes",
     "stroke_poses",
     "unworkable",
     "weight",
@@ -107,6 +113,7 @@ __getattr__, __dir__ = lazy_names(
         "place_axes": "measuring.axis_placement",
         "pose_tables": "poses",
         "started": "start",
+        "still_sizes": "measuring.measurement",
         "stroke_poses": "poses",
         "unworkable": "workable",
         "weight": "strength",

@@ -330,16 +330,26 @@ def _spring(entry: JointTemplate) -> Spring | None:
 
 
 def _with_idle_held(joints: Sequence[Joint], tree: Tree, findings: list[Finding]) -> tuple[Joint, ...]:
-    """The joints, those kept as drawn that nothing moves or holds: a barrel without its rod, a lone link."""
+    """The joints, those kept as drawn that nothing moves or holds: a barrel without its rod, a lone link, what follows
+    a joint that stands."""
     closed = {name for loop in tree.loops for name in loop.joints}
+    by_name = {joint.name: joint for joint in joints}
+
+    def idle(joint: Joint) -> bool:
+        if joint.free or joint.name in closed or joint.drive is not None:
+            return False
+        if joint.follows is not None:
+            return idle(by_name[joint.follows.joint])
+        return joint.type in ("revolute", "prismatic", "spherical")
+
     held = []
     for joint in joints:
-        moved = joint.free or joint.name in closed or joint.follows is not None
-        if joint.type in ("revolute", "prismatic", "spherical") and joint.drive is None and not moved:
+        if idle(joint):
             words = f"Nothing moves or holds '{joint.body1}' on it: it stands as drawn."
             hint = "Give what is missing of its linkage in CAD, or make the joint free in a joints document (--data)."
             findings.append(Finding("MEC019", "warning", joint.name, words, hint))
-            joint = replace(joint, lower=-HELD, upper=HELD, source={**joint.source, "limits": "held as drawn"})
+            source = {**joint.source, "limits": "held as drawn"}
+            joint = replace(joint, lower=-HELD, upper=HELD, source=source, follows=None)
         held.append(joint)
     return tuple(held)
 

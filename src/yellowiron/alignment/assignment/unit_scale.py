@@ -1,9 +1,10 @@
-"""The unit of a CAD model, checked against the sheet: a machine of 300 "metres" was drawn in inches."""
+"""The unit and the size of a CAD model, checked against the sheet: a machine of 300 "metres" was drawn in inches, one
+of half the sheet's lengths by an artist."""
 
 from __future__ import annotations
 
 import math
-from collections.abc import Iterator
+from collections.abc import Iterator, Mapping
 from dataclasses import replace
 
 import numpy as np
@@ -40,6 +41,11 @@ AGREE = 0.01
 """Two diameters agree within this share."""
 ENOUGH = 3
 """So many diameters of hydraulic cylinders that agree with the sheet's give the scale of a model without a unit."""
+OTHER_SIZE = 1.2
+"""What is less than so many times as large, or as small, may be a sister of the sheet's machine, or drawn roughly."""
+SIZES_AGREE, SIZES = 0.15, 3
+"""So many lengths, and two of three of them, agree on it within this share: what an artist draws has a machine's
+proportions roughly."""
 
 
 def to_scale(assembly: Assembly, template: Template, specifications: Specifications) -> Assembly:
@@ -107,6 +113,25 @@ def _to_usual_size(assembly: Assembly, template: Template) -> Assembly:
         return _rescaled(assembly, again[name], words)
     words = f"{read}, and none explains it: scaled by {middle / drawn:.4g} to {middle:.3g} m, which is usual: a guess"
     return _rescaled(assembly, middle / drawn, words)
+
+
+def other_size(assembly: Assembly, sizes: Mapping[str, tuple[float, float]]) -> tuple[float, Finding] | None:
+    """By how much to enlarge a model that is another size than the sheet's machine, as lengths that hang on no pose
+    agree (`sizes`: name → on the model, on the sheet, metres, above 0), and what there is to say of that (ALN034); None
+    where they do not. 1 where its file is exact: CAD has a size, and the sheet may be another machine's."""
+    ratios = {name: math.log(sheet / model) for name, (model, sheet) in sizes.items()}
+    middle = float(np.median([*ratios.values()])) if ratios else 0.0
+    agreed = [name for name, ratio in ratios.items() if abs(ratio - middle) <= SIZES_AGREE]
+    if abs(middle) <= math.log(OTHER_SIZE) or len(agreed) < max(SIZES, 2 * len(ratios) / 3):
+        return None
+    factor = math.exp(middle)
+    words = f"The CAD model is {1.0 / factor:.3g} times as large as the sheet's machine, by {', '.join(agreed)}"
+    hint = "Nothing to do if the model is to be the sheet's machine; else give the sheet of the machine that is drawn."
+    if any(shape.exact for shape in assembly.shapes.values()):
+        factor, hint = 1.0, "Check that the sheet is this machine's; CAD is taken at its word."
+    else:
+        words += f": scaled by {factor:.3g}"
+    return factor, Finding("ALN034", "warning", assembly.name, words, hint)
 
 
 def _rescaled(assembly: Assembly, factor: float, words: str) -> Assembly:

@@ -17,6 +17,8 @@ from yellowiron.support.vectors import winding
 
 SAMPLES = 12
 """Points of a part that are asked whether they are inside of another."""
+PATCHES = 24
+"""Points of a part's surface that are asked so, each for as much of it."""
 
 
 class Touch:
@@ -46,6 +48,12 @@ class Touch:
         if outer not in known:
             known[outer] = _sunk(inner, outer)
         return known[outer]
+
+    def buried(self, a: int, b: int) -> float:
+        """The share of the surface of solid `a` that is inside of solid `b`; 0 where `b` is open. Of a bolt through a
+        plate no corner is in the plate."""
+        inner, outer = self._solids[a], self._solids[b]
+        return _inside(_on_surface(inner), outer)
 
     def reaching(self, low: Floats, high: Floats) -> list[int]:
         """The solids whose boxes reach a box, (3,) corners."""
@@ -105,9 +113,21 @@ def _distance(first: Any, second: Any) -> float:
 
 
 def _sunk(inner: Solid, outer: Solid) -> float:
+    return _inside(np.concatenate([inner.center[None], inner.points[:: max(1, len(inner.points) // SAMPLES)]]), outer)
+
+
+def _on_surface(solid: Solid) -> Floats:
+    """(n, 3) points of a solid's surface, each for as much of it as every other."""
+    corners = solid.points[solid.shape.mesh.triangles]
+    area = np.cumsum(np.linalg.norm(np.cross(corners[:, 1] - corners[:, 0], corners[:, 2] - corners[:, 0]), axis=1))
+    at = np.searchsorted(area, (np.arange(PATCHES) + 0.5) / PATCHES * area[-1])
+    return np.asarray(corners[at].mean(axis=1))
+
+
+def _inside(points: Floats, outer: Solid) -> float:
+    """The share of points (n, 3) that is inside of a solid; 0 where it is open."""
     if not outer.shape.closed:
         return 0.0
-    points = np.concatenate([inner.center[None], inner.points[:: max(1, len(inner.points) // SAMPLES)]])
     within = np.zeros(len(points))
     beside = ((points >= outer.low) & (points <= outer.high)).all(axis=1)
     corners = outer.points[outer.shape.mesh.triangles] if beside.any() else np.zeros((0, 3, 3))

@@ -84,21 +84,23 @@ def _largest(group: NDArray[np.int64], low: Floats, high: Floats) -> NDArray[np.
 
 def _gaps(low: Floats, high: Floats, lows: Floats, highs: Floats) -> Floats:
     """(n,) distances of one box, (3,) corners, from others, (n, 3) corners; metres."""
-    return np.asarray(np.linalg.norm(np.maximum(0.0, np.maximum(lows - high, low - highs)), axis=1), dtype=np.float64)
+    apart = np.maximum(0.0, np.maximum(lows - high, low - highs))
+    return np.asarray(np.sqrt(np.einsum("ij,ij->i", apart, apart)))
 
 
 def _groups(low: Floats, high: Floats, limit: float) -> NDArray[np.int64]:
-    """(n,) numbers of the groups of boxes, of which each is within `limit` of another."""
+    """(n,) numbers of the groups of boxes, of which each is within `limit` of another: that of its first box."""
     group = np.full(len(low), -1, dtype=np.int64)
-    for start in range(len(low)):
-        if group[start] >= 0:
-            continue
+    free = np.arange(len(low))
+    while len(free):
+        start = free[0]
+        front, free = [start], free[1:]
         group[start] = start
-        front = [start]
-        while front:
+        while front and len(free):
             i = front.pop()
-            free = np.flatnonzero(group < 0)
-            near = free[_gaps(low[i], high[i], low[free], high[free]) <= limit]
-            group[near] = start
-            front += near.tolist()
+            near = _gaps(low[i], high[i], low[free], high[free]) <= limit
+            if near.any():
+                group[free[near]] = start
+                front += free[near].tolist()
+                free = free[~near]
     return group

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import contextlib
 import functools
 import math
 import weakref
@@ -9,9 +10,11 @@ from collections.abc import Sequence
 from dataclasses import dataclass, replace
 
 import numpy as np
+from scipy.spatial import ConvexHull, QhullError
 
 from yellowiron.model.assembly import Assembly, Part
 from yellowiron.model.geometry import CylinderFeature, Floats, Ints, PlaneFeature, Shape
+from yellowiron.support.caching.remembered import remembered
 from yellowiron.support.vectors import distance_from_line, triple
 
 FULL_ARC = 0.6 * 2 * math.pi
@@ -20,6 +23,8 @@ MOST_TILT = 0.03
 """Radians by which the axis of a coarse round face may be tilted at most: what is flat beside it tells it better."""
 SLIGHT = 5e-4
 """Volume over the cube of the diagonal: a hose has less, a plate or a bar more."""
+FEW_POINTS = 500
+"""Of so many points, all are looked at for where a shape ends; of more, the outermost ones."""
 
 
 @dataclass(frozen=True, eq=False)
@@ -116,8 +121,18 @@ class Solid:
 
     def span(self, origin: Floats, direction: Floats) -> tuple[float, float]:
         """Its span along a line through `origin`."""
-        along = (self.points - origin) @ direction
+        along = (self.points[_outermost(self.shape)] - origin) @ direction
         return float(along.min()), float(along.max())
+
+
+@remembered
+def _outermost(shape: Shape) -> Ints | slice:
+    """The points of a shape that nothing of it is outside of: where it ends in any direction."""
+    points = shape.mesh.points
+    if len(points) > FEW_POINTS:
+        with contextlib.suppress(QhullError):  # a flat one has none
+            return np.asarray(ConvexHull(points).vertices, dtype=np.int64)
+    return slice(None)
 
 
 @dataclass(frozen=True, eq=False)

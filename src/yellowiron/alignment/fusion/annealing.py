@@ -19,11 +19,15 @@ from yellowiron.model.geometry import Floats
 HOT, COLD = 40.0, 2.0
 """Temperatures, in the score's units, that annealing begins and ends with."""
 SWEEPS = 80
+PATIENCE = 25
+"""After so many sweeps that found nothing better it is cooled at once: of 173 annealings one ended beside its best."""
 LAST = 6
 """So many sweeps without temperature end it."""
 MOVES = 12
 """So many times two bodies change places, and two mirror images are tried as another body, after every sweep; of a few
 pieces, half as many times as there are pieces."""
+AT_ONCE = 6
+"""So many of either kind are tried from the same labels."""
 CHAINS = 12
 WARM, WARM_UP = 14, 16.0
 """So many sweeps, from this temperature, tell how good a variant is beside another, from whose labels they begin."""
@@ -179,43 +183,46 @@ class Annealing:
             # Where nothing changed, nothing will in any order.
             self._settled = self.labels.copy() if np.array_equal(before, self.labels) else None
 
-    @np.errstate(divide="ignore")
+    @np.errstate(divide="ignore", invalid="ignore")
     def move(self, temperature: float, rng: np.random.Generator) -> Floats:
-        """Tries two bodies in each other's place, and two mirror images as another body, several times (Metropolis).
-        Returns what the labels score (n,)."""
-        labels, scores = self.labels, scores_of(self.field, self.labels)
-        for _ in range(min(MOVES, max(2, labels.shape[1] // 2))):
-            for other in (self._swapped(labels, rng), self._mirrored(labels, rng)):
-                changed = scores if other is labels else scores_of(self.field, other)
-                gain = changed - scores
-                chance = np.log(rng.random(len(gain))) * temperature
-                taken = (gain > 0) | (gain > chance)
-                labels = np.where(taken[:, None], other, labels)
-                scores = np.where(taken, changed, scores)
+        """Tries two bodies in each other's place, and two mirror images as another body, several times (Metropolis): so
+        many `AT_ONCE` from where a chain stands, of which it goes the first that it may. Returns what the labels score
+        (n,)."""
+        labels, scores, rows = self.labels, scores_of(self.field, self.labels), self._rows
+        tries = min(MOVES, max(2, labels.shape[1] // 2))
+        for start in range(0, tries, AT_ONCE):
+            count = min(AT_ONCE, tries - start)
+            others = self._swapped(labels, rng, count)
+            if len(self.field.mirrored):
+                others = np.concatenate([others, self._mirrored(labels, rng, count)])
+            changed = scores_of(self.field, others.reshape(-1, labels.shape[1])).reshape(len(others), -1)
+            gain = changed - scores
+            taken = np.asarray((gain > 0) | (gain > np.log(rng.random(gain.shape)) * temperature))
+            first = np.argmax(taken, axis=0)
+            goes = taken[first, rows]
+            labels = np.where(goes[:, None], others[first, rows], labels)
+            scores = np.where(goes, changed[first, rows], scores)
         self.take(labels)
         return np.asarray(scores)
 
-    def _swapped(self, labels: Ints, rng: np.random.Generator) -> Ints:
-        """The labels with the body of one piece in another one's place, and the other in its."""
-        rows, none = self._rows, len(self.field.bodies)
-        one = labels[rows, rng.integers(labels.shape[1], size=len(labels))]
-        two = rng.integers(none, size=len(labels))
-        two = np.where(one == none, none, two)
-        places = self._places.copy()
-        places[self._row_at + one], places[self._row_at + two] = two, one
-        return places.take(self._row_at[:, None] + labels)
+    def _swapped(self, labels: Ints, rng: np.random.Generator, count: int) -> Ints:
+        """(count, n, pieces) the labels with the body of one piece in another one's place, and the other in its."""
+        rows, none, shape = self._rows, len(self.field.bodies), (count, len(labels))
+        one = labels[rows, rng.integers(labels.shape[1], size=shape)]
+        two = np.where(one == none, none, rng.integers(none, size=shape))
+        places = np.tile(self._places, (count, 1))
+        at = np.arange(count)[:, None]
+        places[at, self._row_at + one], places[at, self._row_at + two] = two, one
+        return places.take(self._row_at[:, None] + labels, axis=1)
 
-    def _mirrored(self, labels: Ints, rng: np.random.Generator) -> Ints:
-        """The labels with a piece and its mirror image as another body, or as its twins."""
-        pairs = self.field.mirrored
-        if not len(pairs):
-            return labels
-        rows = self._rows
-        pair = pairs[rng.integers(len(pairs), size=len(labels))]
-        one = rng.integers(len(self.field.bodies) + 1, size=len(labels))
-        other = labels.copy()
-        other[rows, pair[:, 0]] = one
-        other[rows, pair[:, 1]] = self.field.twin[one]
+    def _mirrored(self, labels: Ints, rng: np.random.Generator, count: int) -> Ints:
+        """(count, n, pieces) the labels with a piece and its mirror image as another body, or as its twins."""
+        shape, at = (count, len(labels)), np.arange(count)[:, None]
+        pair = self.field.mirrored[rng.integers(len(self.field.mirrored), size=shape)]
+        one = rng.integers(len(self.field.bodies) + 1, size=shape)
+        other = np.tile(labels, (count, 1, 1))
+        other[at, self._rows, pair[..., 0]] = one
+        other[at, self._rows, pair[..., 1]] = self.field.twin[one]
         return other
 
 
@@ -228,11 +235,15 @@ def labelled(
     first = np.argmax(field.unary, axis=1) if start is None else start
     state = Annealing(field, np.tile(first, (chains, 1)))
     best, score = first, score_of(field, first)
+    waited = 0
     for temperature in [*np.geomspace(hot, COLD, sweeps), *[0.0] * LAST]:
+        if temperature > 0.0 and waited >= PATIENCE:
+            continue
         state.sweep(float(temperature), rng)
         reached = state.move(float(temperature), rng) if sweeps else scores_of(field, state.labels)
+        waited += 1
         if reached.max() > score:
-            best, score = state.labels[int(np.argmax(reached))].copy(), float(reached.max())
+            best, score, waited = state.labels[int(np.argmax(reached))].copy(), float(reached.max()), 0
     for order in field.sides:
         if (other := score_of(field, order[best])) > score:
             best, score = order[best], other

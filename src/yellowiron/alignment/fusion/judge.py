@@ -33,6 +33,8 @@ Ints = np.ndarray[Any, np.dtype[np.int64]]
 KINDS = ("slide", "hinge", "level", "turned")
 """What a joint is exactly held as: a slide; a hinge, one that lies across the machine, one that does not."""
 NEVER = -1e6
+AT_ONCE = 25_000
+"""So many bonds, of all labellings, are scored at once: what is larger costs more to make room for than to reckon."""
 
 
 @dataclass(frozen=True, eq=False)
@@ -82,17 +84,6 @@ class Field:
         return np.flatnonzero(self.near)
 
     @cached_property
-    def lined(self) -> tuple[Ints, Ints, Floats]:
-        """The pieces at either end of the pairs `off`, and what each of these counts."""
-        one, other = np.ascontiguousarray(self.off.T)
-        return one, other, self.astray[one, other]
-
-    @cached_property
-    def none(self) -> Ints:
-        """(pieces,) a number for each that is no label's and no other piece's."""
-        return -1 - np.arange(len(self.unary))
-
-    @cached_property
     def exactly(self) -> tuple[Ints, Ints]:
         """The bonds that may hold a joint exactly, and where their `exact` begin."""
         bonds = np.flatnonzero(self.exact.any(axis=1))
@@ -111,21 +102,19 @@ class Field:
         return (self.halves[:, None] & self.halves) & (self.cylinder[:, None] != self.cylinder)
 
     @cached_property
-    def by_pair(self) -> Floats:
-        """(labels * labels, 5) what two labels are to each other, as numbers: one body, joined, one body or twins,
-        `unpaired`, and `farther`: what a bond's `weights` and `order` count."""
-        same = np.eye(len(self.joint), dtype=np.bool_)
-        same[-1, -1] = False
-        return (
-            np.stack([same, self.joint < self.joints, self.twins, self.unpaired, self.farther], axis=-1)
-            .reshape(-1, 5)
-            .astype(float)
-        )
-
-    @cached_property
-    def by_bond(self) -> Floats:
-        """(bonds * 5,) what each bond counts of it."""
-        return np.column_stack([self.weights, self.order]).ravel()
+    def by_bond(self) -> tuple[tuple[Ints | None, Floats, Floats], ...]:
+        """What bonds count of what two labels are to each other (one body, joined, one body or twins, `unpaired`,
+        `farther`): which bonds (None: all of them), what each counts, and (labels * labels,) what the labels are."""
+        same = np.eye(len(self.joint))
+        same[-1, -1] = 0.0
+        told = (same, self.joint < self.joints, self.twins, self.unpaired, self.farther)
+        found: list[tuple[Ints | None, Floats, Floats]] = []
+        for counts, of_labels in zip([*self.weights.T, self.order], told, strict=True):
+            bonds = np.flatnonzero(counts)
+            some = None if 2 * len(bonds) > len(counts) else bonds
+            if len(bonds):
+                found.append((some, counts if some is None else counts[bonds], of_labels.ravel().astype(np.float64)))
+        return tuple(found)
 
 
 def field_of(
@@ -266,6 +255,8 @@ def weighed(features: Features, weights: Features) -> float:
 
 def scores_of(field: Field, labels: Ints) -> Floats:
     """(n,) what each of several labellings (n, pieces) scores."""
+    if len(labels) > (some := max(1, AT_ONCE // max(1, len(field.ends)))):
+        return np.concatenate([scores_of(field, labels[k : k + some]) for k in range(0, len(labels), some)])
     rows, (_, count) = np.arange(len(labels))[:, None], field.unary.shape
     (of_piece, first, second), (exactly, of_bond) = field.numbers, field.exactly
     pairs = labels.take(first, axis=1)
@@ -273,7 +264,8 @@ def scores_of(field: Field, labels: Ints) -> Floats:
     pairs += labels.take(second, axis=1)
     held = field.joint.ravel().take(pairs)
     total = field.unary.ravel().take(of_piece + labels).sum(axis=1)
-    total += field.by_pair.take(pairs, axis=0).reshape(len(labels), -1) @ field.by_bond
+    for bonds, counts, told in field.by_bond:
+        total += told.take(pairs if bonds is None else pairs.take(bonds, axis=1)) @ counts
     # The last column is no joint, or no body.
     from_row = (field.joints + 1) * rows
     there = np.zeros((2, len(labels), field.joints + 1), dtype=np.bool_)
@@ -288,10 +280,17 @@ def scores_of(field: Field, labels: Ints) -> Floats:
     total += field.held[0] * near_held + field.held[1] * exactly_held
     total += played[:, :-1] @ field.played[:-1]
     if len(field.off):
-        one, other, counts = field.lined
-        # What is no half is like nothing else.
-        like = np.where(field.halves.take(labels), labels, field.none).astype(np.int32)
-        total += (like.take(one, axis=1) == like.take(other, axis=1)) @ counts
+        # Few pieces are halves, and fewer of them of one body: these stand one after the other.
+        row, piece = np.nonzero(field.halves.take(labels))
+        own = row * count + labels[row, piece]
+        order = np.argsort(own, kind="stable")
+        own, row, piece = own[order], row[order], piece[order]
+        for later in range(1, len(own)):
+            like = np.flatnonzero(own[later:] == own[:-later])
+            if not len(like):
+                break
+            astray = field.astray[piece[like], piece[like + later]]
+            total += np.bincount(row[like], weights=astray, minlength=len(labels))
     return np.asarray(total)
 
 

@@ -89,7 +89,7 @@ def _on(i: int, placed: Mapping[int, Place], touch: Touch) -> Place | None:
         host = placed[max(hosts, key=lambda j: (placed[j].confidence, -j))]
         return _as(host, SITTING * host.confidence)
     # Between bodies it counts how deep it is in each.
-    depth = {b: max(touch.sunk(i, j) for j in hosts if placed[j].body == b) for b in sorted(bodies)}
+    depth = {b: max(touch.buried(i, j) for j in hosts if placed[j].body == b) for b in sorted(bodies)}
     best, second = sorted(depth, key=lambda b: (-depth[b], b))[:2]
     host = next(placed[j] for j in hosts if placed[j].body == best)
     clear = depth[best] > 2.0 * depth[second] and depth[best] > 0.0

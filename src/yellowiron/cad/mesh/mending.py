@@ -74,7 +74,8 @@ def _number(mesh: Mesh) -> Indices:
     """`welded`, coarser where the usual leaves a mesh in shreds and that joins them."""
     number = welded(mesh)
     lonely = _lonely(number[mesh.triangles])
-    for factor in _COARSER if lonely > _LONELY else ():
+    # Three triangles close nothing, however their points are joined.
+    for factor in _COARSER if lonely > _LONELY and len(mesh.triangles) > 3 else ():
         coarser = welded(mesh, factor)
         corners = coarser[mesh.triangles]
         flat = (corners == np.roll(corners, 1, axis=1)).any(axis=1)

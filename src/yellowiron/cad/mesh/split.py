@@ -239,41 +239,47 @@ def _twins(shape: Shape) -> tuple[tuple[CylinderFeature, ...], list[Mesh]] | Non
     if not pairs:
         return None
     number = shells.solids(shape.mesh)
-    corners = shape.mesh.points[shape.mesh.triangles]
     for one, other in pairs:
         middle = 0.5 * (np.array(one.center) + np.array(other.center))
-        beyond = _mirrored(corners, number, middle, np.array(other.center) - middle)
+        beyond = _mirrored(shape.mesh, number, middle, np.array(other.center) - middle)
         if beyond is None:
             continue
-        length = float(np.ptp(corners[~beyond].reshape(-1, 3) @ np.array(one.direction)))
+        length = float(np.ptp(_corners(shape.mesh, ~beyond) @ np.array(one.direction)))
         if one.length > LONG * length:
             return (one, other), [measures.chosen(shape.mesh, np.flatnonzero(rows)) for rows in (~beyond, beyond)]
     return None
 
 
-def _mirrored(corners: Floats, number: NDArray[np.int64], middle: Floats, across: Floats) -> NDArray[np.bool_] | None:
-    """Which triangles (n,) are beyond a plane through `middle`, square to `across`, if those before it are as large and
-    no solid (`number`, by triangle) is on both sides; None otherwise. `corners` (n, 3, 3)."""
+def _corners(mesh: Mesh, chosen: NDArray[np.bool_]) -> Floats:
+    """(3 m, 3) the corners of some of a mesh's triangles."""
+    return np.asarray(mesh.points[mesh.triangles[chosen].ravel()])
+
+
+def _mirrored(mesh: Mesh, number: NDArray[np.int64], middle: Floats, across: Floats) -> NDArray[np.bool_] | None:
+    """Which triangles (n,) of a mesh are beyond a plane through `middle`, square to `across`, if those before it are as
+    large and no solid (`number`, by triangle) is on both sides; None otherwise."""
     normal = across / np.linalg.norm(across)
-    a, b, c = ((corners - middle) @ normal).T
+    a, b, c = ((mesh.points - middle) @ normal)[mesh.triangles].T
     low, high = (np.full(int(number.max()) + 1, sign * np.inf) for sign in (1.0, -1.0))
     np.minimum.at(low, number, np.minimum(np.minimum(a, b), c))
     np.maximum.at(high, number, np.maximum(np.maximum(a, b), c))
     beyond: NDArray[np.bool_] = a + b + c > 0.0
     if ((low < 0.0) & (high > 0.0)).any() or beyond.all() or not beyond.any():
         return None
-    near, far = corners[~beyond].reshape(-1, 3), corners[beyond].reshape(-1, 3)
+    near, far = _corners(mesh, ~beyond), _corners(mesh, beyond)
+    size = float(
+        np.linalg.norm(np.maximum(near.max(axis=0), far.max(axis=0)) - np.minimum(near.min(axis=0), far.min(axis=0)))
+    )
     far = far - 2.0 * np.outer((far - middle) @ normal, normal)
     ends = [np.abs(end(near, axis=0) - end(far, axis=0)).max() for end in (np.min, np.max)]
-    return beyond if max(ends) < ALIKE * float(np.linalg.norm(np.ptp(corners.reshape(-1, 3), axis=0))) else None
+    return beyond if max(ends) < ALIKE * size else None
 
 
 def _wheels(shape: Shape) -> list[Mesh] | None:
     """The two meshes of a shape that is a wheel and its mirror image on one axis; None for any other."""
     if shape.exact or len(shape.mesh.triangles) < 2 * ROUNDED:
         return None
-    corners = shape.mesh.points[shape.mesh.triangles]
-    points = corners.reshape(-1, 3)
+    points = shape.mesh.points[shape.mesh.triangles.ravel()]
     middle = 0.5 * (points.min(axis=0) + points.max(axis=0))
     # A wheel is as high as it is long: its axis is the direction that the box is square to.
     for k in range(3):
@@ -283,8 +289,8 @@ def _wheels(shape: Shape) -> list[Mesh] | None:
         rim = np.linalg.norm((points - middle)[:, [(k + 1) % 3, (k + 2) % 3]], axis=1)
         if rim.max() > OFF * max(square):
             continue
-        beyond = _mirrored(corners, shells.solids(shape.mesh), middle, np.eye(3)[k])
-        if beyond is not None and np.ptp(corners[beyond][..., k]) < FLAT * max(square):
+        beyond = _mirrored(shape.mesh, shells.solids(shape.mesh), middle, np.eye(3)[k])
+        if beyond is not None and np.ptp(_corners(shape.mesh, beyond)[:, k]) < FLAT * max(square):
             return [measures.chosen(shape.mesh, np.flatnonzero(rows)) for rows in (~beyond, beyond)]
     return None
 

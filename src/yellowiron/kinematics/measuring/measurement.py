@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import contextlib
 from typing import Literal
 
 import numpy as np
@@ -18,6 +19,8 @@ from yellowiron.model.template import MeasurementTemplate
 CALIBRATED = "calibrated on "
 """How a cylinder's `sources["closed_length"]`, and a joint's `source["axis"]`, begins where measurements placed it;
 their specifications follow, separated by '; '."""
+SIZES = ("extent", "distance", "radius", "tyre_diameter", "overhang")
+"""The kinds of quantity that are lengths of what is drawn."""
 _POSES = 4
 
 
@@ -32,6 +35,22 @@ def measure(mechanism: Mechanism, *, bench: Bench | None = None) -> tuple[Measur
     bench = bench if bench is not None else Bench(mechanism)
     placed = calibrating(mechanism)
     return tuple(_measured(template, bench, placed) for template in mechanism.measurements)
+
+
+def still_sizes(mechanism: Mechanism) -> dict[str, tuple[float, float]]:
+    """Measurement → (on the machine, on the sheet), metres: of the lengths that hang on no pose, and that the sheet
+    settles. Raises `MechanismError` where the joints are no tree with cuts."""
+    bench, found = Bench(mechanism), {}
+    for template in mechanism.measurements:
+        if template.steps or template.unit != "m" or template.quantity.get("kind") not in SIZES:
+            continue
+        spec, example, _ = specified(mechanism, template.specification)
+        if spec is None or spec <= 0.0 or example or template.unpublished:
+            continue
+        with contextlib.suppress(Unmeasurable):
+            if (model := bench.value(template.quantity, bench.chain.drawn)) > 0.0:
+                found[template.name] = (model, spec)
+    return found
 
 
 def calibrating(mechanism: Mechanism) -> frozenset[str]:
