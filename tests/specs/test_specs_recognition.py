@@ -85,8 +85,7 @@ def test_a_page_whose_points_are_pixels_is_read_as_one_of_paper(
     monkeypatch.setattr(reader, "statements_of", lambda page: (read.append(page), statements_of(page))[1])
     (page,) = ocr.recognise(tmp_path / "a.pdf", [1], "rapidocr")
     assert [(s.label, s.text) for s in page.statements] == [(a, f"{b} {c}") for a, b, c in rows]
-    size = 9.0 if points == 1.0 else 8.0  # type that is as large as a sheet's is left as it is
-    assert {w.size for w in read[0].words} == {size} and read[0].width == pytest.approx(595 * size / 9, rel=1e-6)
+    assert {w.size for w in read[0].words} == {9.0} and read[0].width == pytest.approx(595, rel=1e-6)
     assert page.statements[1].box == pytest.approx([points * v for v in (300, 123.25, 333, 131.8)], rel=1e-6)
 
 

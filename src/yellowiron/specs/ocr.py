@@ -17,7 +17,7 @@ from yellowiron.model.errors import SheetError
 from yellowiron.specs.layout.statement import Statement
 from yellowiron.specs.pages.picture_rules import rules_of_picture
 from yellowiron.specs.pages.strokes import SNAP, DrawnRule
-from yellowiron.specs.pages.words import Page, Word, read_page, type_unit
+from yellowiron.specs.pages.words import PICTURED, Page, Word, read_page, type_unit
 from yellowiron.specs.reader import PageRead, opened_pages, read_words
 from yellowiron.specs.recognition import rapid, tesseract
 from yellowiron.specs.recognition.mending import levelled
@@ -69,7 +69,7 @@ def recognise(path: Path, numbers: Sequence[int], program: str) -> list[PageRead
             failure = error
             continue
         if page.readable:
-            one = read_words(page)
+            one = read_words(page, type_unit(page.words, PICTURED))
             found.append(replace(one, statements=tuple(with_cubes(one.statements))))
     if failure is not None and not found:
         raise failure
@@ -100,7 +100,7 @@ def _page(page: object, number: int, program: str) -> Page:
     made = Page(number, width, height, words, tuple(rules), tuple(bars), characters=characters, images=1)
     if not pictured:
         return made
-    unit = type_unit(words)
+    unit = type_unit(words, PICTURED)
     sized = made.in_units(unit)
     seen = rules_of_picture(np.asarray(picture), scale * unit)
     level = [r for r in seen if r.horizontal and _is_by(r, sized.words)]

@@ -22,7 +22,7 @@ from yellowiron.specs.layout.rows.lines import lines_of
 from yellowiron.specs.layout.statement import Statement, join_boxes
 from yellowiron.specs.machines import titled
 from yellowiron.specs.pages.strokes import Box
-from yellowiron.specs.pages.words import Page, read_page, type_unit
+from yellowiron.specs.pages.words import TYPED, Page, read_page, type_unit
 from yellowiron.specs.values.stated_configuration import Stated, stated_in
 from yellowiron.support.files.inputs import require_file
 from yellowiron.support.guard import beat, run_guarded
@@ -99,7 +99,7 @@ def read_sheet(path: Path) -> Sheet:
                 late = f"{path.name} takes more than {_MOST_S:g} s: stopped at page {number} of {count}"
                 raise SheetError(late, where=str(path), hint=only)
             page = read_page(opened, number)
-            one = read_words(page)
+            one = read_words(page, type_unit(page.words, TYPED))
             reads.append(replace(one, statements=tuple(proven(one.statements, page))))
             if page.partly or (not page.readable and (page.images or page.characters or page.rules)):
                 silent.append(number)
@@ -138,12 +138,12 @@ def opened_pages(path: Path, numbers: Iterable[int], doing: str, of: str = "") -
                 yield number, page
 
 
-def read_words(page: Page) -> PageRead:
-    """What the words of a page say; its title alone where they mean nothing."""
+def read_words(page: Page, unit: float) -> PageRead:
+    """What the words of a page say, of whose type so many points are a unit; its title alone where they mean nothing."""
     if not page.readable:
         return PageRead(page.number, titles=titled(page))
     text = " ".join(w.text for w in page.words)
-    stated, titles, unit = stated_in(text, page.number), titled(page), type_unit(page.words)
+    stated, titles = stated_in(text, page.number), titled(page)
     page = page.in_units(unit)
     statements = tuple(s.in_points(unit) for s in statements_of(page))
     near = tuple(replace(n, statement=n.statement.in_points(unit)) for n in nearest_of(page))

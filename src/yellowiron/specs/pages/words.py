@@ -25,8 +25,9 @@ _SIGNS = re.compile(r"[\u00b9\u00b2\u00b3\u2070-\u2079]+(?:[,)\u207e][\u00b9\u00
 """Raised digits that are characters of their own."""
 _DRAWN = (100, 0.12)
 """Letters drawn as outlines, and their share of the page's characters, from which on they are text of it."""
-_TYPES, _TYPE = (5.0, 12.0), 8.0
-"""Points between which the type of a sheet is, at its median; the size in units of a page where it is not."""
+TYPED, PICTURED = (5.0, 8.0, 12.0), (4.0, 9.0, 18.0)
+"""Points: the type of a sheet at its median is between the first and the last, and the second in units of a page where
+it is not. That of a picture is only seen, and its pixels may be its points."""
 _TOUCH = 0.1
 """Of the type size; runs of characters that are no farther apart are one word, whatever stands between in the file."""
 _LEADER = re.compile(r"[.·•_…]{3,}|^[.·•_…]+$|(?<=[^\W\d_])[-–—]{2,}$")
@@ -134,7 +135,7 @@ def read_page(page: Any, number: int) -> Page:
     finally:
         textpage.close()
     words, leaders = _words(glyphs)
-    rules, bars, images, drawn = strokes_of(page, place, type_unit(words))
+    rules, bars, images, drawn = strokes_of(page, place, type_unit(words, TYPED))
     return Page(
         number=number,
         width=width,
@@ -150,11 +151,11 @@ def read_page(page: Any, number: int) -> Page:
     )
 
 
-def type_unit(words: Sequence[Word]) -> float:
+def type_unit(words: Sequence[Word], usual: tuple[float, float, float]) -> float:
     """So many points are a unit of a page of which the type has, at its median, the usual size: what is near or thin
     on a page depends on that, and not on the paper. 1 where it is about as large as a sheet's."""
-    size = statistics.median(w.size for w in words) if words else _TYPE
-    return 1.0 if _TYPES[0] <= size <= _TYPES[1] else size / _TYPE
+    size = statistics.median(w.size for w in words) if words else usual[1]
+    return 1.0 if usual[0] <= size <= usual[2] else size / usual[1]
 
 
 def _placement(page: Any) -> Place:
