@@ -139,7 +139,7 @@ def opened_pages(path: Path, numbers: Iterable[int], doing: str, of: str = "") -
 
 
 def read_words(page: Page, unit: float) -> PageRead:
-    """What the words of a page say, of whose type so many points are a unit; its title alone where they mean nothing."""
+    """What the words of a page say, its type in units of so many points; its title alone where they mean nothing."""
     if not page.readable:
         return PageRead(page.number, titles=titled(page))
     text = " ".join(w.text for w in page.words)
