@@ -1,7 +1,7 @@
 """Extraction from makers' own PDFs, against what a person read beside them (`benchmarks/brochures/*.json`).
 
 Run from the repository's root: `YELLOWIRON_BROCHURES=FOLDER python benchmarks/bench_brochures.py [--held] [--all]
-[--faults] [--only SLUG,…] [--as-pictures] [--model right|lying]`.
+[--faults] [--only SLUG,…] [--every N] [--as-pictures] [--shake NAME,…] [--model right|lying]`.
 The PDFs are not in the repository: each truth says where its own is from, and FOLDER holds it as `SLUG.pdf`. What is
 not there is skipped, by name. Without `--held` or `--all` only the open ones are read.
 
@@ -13,6 +13,9 @@ be `ok`. `--config`: values of readings with a model, whose first value is of th
 processor time of reading, text recognition with it.
 
 `--as-pictures`: each PDF with text as a scan of itself: every page a JPEG of 170 dots an inch, turned by 0.4 degrees.
+
+`--shake NAME,…`: each PDF with text in another file of the same page (`brochures_shaken`: "small", "split" …;
+`all`), a line a change: what is lost of what is `ok` as printed, what is won, what is wrong. Without text recognition.
 
 `--model right`: the rules with a language model that points to what the person read; `settled` counts what the rules
 alone had missed or for review (or in conflict) and is `ok` and right with it. `--model lying`: the same with each of
@@ -30,7 +33,7 @@ import os
 import resource
 import sys
 import tempfile
-from collections.abc import Callable, Iterator, Mapping
+from collections.abc import Callable, Iterator, Mapping, Sequence
 from contextlib import contextmanager
 from dataclasses import dataclass, field
 from pathlib import Path
@@ -41,8 +44,9 @@ import pypdfium2
 from PIL import Image
 
 ROOT = Path(__file__).resolve().parent.parent
-sys.path[:0] = [str(ROOT / "src"), str(ROOT / "tests")]
+sys.path[:0] = [str(ROOT / "src"), str(ROOT / "tests"), str(ROOT / "benchmarks")]
 
+from brochures_shaken import SHAKES, shaken  # noqa: E402
 from kit.sheets.page_models import LIARS, at_hand, truthful  # noqa: E402
 from yellowiron.endpoint import ModelOptions  # noqa: E402
 from yellowiron.library import load_template  # noqa: E402
@@ -52,7 +56,7 @@ from yellowiron.model.template import Template, Wanted  # noqa: E402
 from yellowiron.specs.extraction import by_rules, from_sheets, read, with_model  # noqa: E402
 from yellowiron.specs.llm import page_reader  # noqa: E402
 from yellowiron.specs.llm.pointing import PageText, Place, RefusedError  # noqa: E402
-from yellowiron.specs.reader import Sheet  # noqa: E402
+from yellowiron.specs.reader import Sheet, read_sheet  # noqa: E402
 from yellowiron.support.units import parse_quantity  # noqa: E402
 
 TRUTHS = ROOT / "benchmarks" / "brochures"
@@ -243,13 +247,57 @@ def scanned(pdf: Path, folder: Path) -> Path:
     return made
 
 
+Read = dict[tuple[str, str, str], tuple[bool, bool]]
+"""By file, model and value: whether it is `ok` and right, and whether it is `ok` and wrong."""
+
+
+def read_shaken(how: str, truths: Mapping[Path, dict[str, Any]], scratch: Path) -> tuple[Tally, Read]:
+    """The readings of PDFs after one of the `SHAKES`."""
+    load = functools.cache(functools.partial(load_template, sheet_only=True))
+    total, found = Tally(), Read()
+    for pdf, truth in truths.items():
+        before = _seconds()
+        with shaken(pdf, how, scratch) as path:
+            sheet = read_sheet(path)
+        total.pages += sheet.pages
+        for reading in truth["readings"]:
+            config = reading["config"] or ""
+            values = from_sheets(load(truth["type"]), [sheet], config=config)
+            total.add(judge(f"{how}: {pdf.stem} {config}".strip(), reading["values"], values, config))
+            for name, value in values.values.items():
+                known = reading["values"].get(name, {})
+                allowed = [str(known["value"])] if "value" in known else list(map(str, known.get("one_of", ())))
+                right = any(near(one, value.value) for one in allowed)
+                ok = value.status == "ok"
+                found[pdf.stem, config, name] = ("value" in known and ok and right, ok and not right)
+        total.seconds += _seconds() - before
+    return total, found
+
+
+def shake(names: Sequence[str], truths: Mapping[Path, dict[str, Any]], scratch: Path) -> list[str]:
+    """Prints a line for each change of the file; the faults of all of them."""
+    printed, before = read_shaken("printed", truths, scratch)
+    print(printed.line("printed"), flush=True)
+    faults = []
+    for how in names:
+        tally, after = read_shaken(how, truths, scratch)
+        lost = sum(ok and not after[key][0] for key, (ok, _) in before.items())
+        won = sum(ok and not before[key][0] for key, (ok, _) in after.items())
+        wrong = sum(one and not before[key][1] for key, (_, one) in after.items())
+        print(f"{tally.line(how)}  lost {lost}, won {won}, newly wrong {wrong}", flush=True)
+        faults += tally.faults
+    return faults
+
+
 def main() -> None:
     parser = argparse.ArgumentParser(description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter)
     parser.add_argument("--held", action="store_true", help="the held-back ones instead of the open ones")
     parser.add_argument("--all", action="store_true")
     parser.add_argument("--faults", action="store_true")
     parser.add_argument("--only", default="")
+    parser.add_argument("--every", type=int, default=1, help="each so manieth file only")
     parser.add_argument("--as-pictures", action="store_true")
+    parser.add_argument("--shake", default="", help="changes of the file, or all")
     parser.add_argument("--model", choices=["right", "lying"])
     arguments = parser.parse_args()
     folder = Path(os.environ.get("YELLOWIRON_BROCHURES", ""))
@@ -259,7 +307,8 @@ def main() -> None:
     load = functools.cache(functools.partial(load_template, sheet_only=True))
     scans = tempfile.TemporaryDirectory()
     totals = {False: Tally(), True: Tally()}
-    for path in sorted(TRUTHS.glob("*.json")):
+    shaken_ones: dict[Path, dict[str, Any]] = {}
+    for path in sorted(TRUTHS.glob("*.json"))[:: arguments.every]:
         truth = json.loads(path.read_text(encoding="utf-8"))
         if (arguments.only and path.stem not in arguments.only.split(",")) or not (
             arguments.all or arguments.only or truth["held"] == arguments.held
@@ -268,6 +317,9 @@ def main() -> None:
         pdf = folder / f"{path.stem}.pdf"
         if not pdf.is_file():
             print(f"{path.stem:22} skipped: {pdf.name} is not there")
+            continue
+        if arguments.shake:
+            shaken_ones |= {} if truth["picture"] else {pdf: truth}
             continue
         if arguments.as_pictures:
             if truth["picture"]:
@@ -296,6 +348,9 @@ def main() -> None:
             tally.add(judge(where, reading["values"], found, config))
         print(tally.line(path.stem + (" (picture)" if truth["picture"] else "")))
         totals[truth["picture"]].add(tally)
+    if arguments.shake:
+        names = SHAKES[1:] if arguments.shake == "all" else arguments.shake.split(",")
+        totals[False].faults += shake(names, shaken_ones, Path(scans.name))
     for picture, tally in totals.items():
         if tally.pages:
             print(tally.line("PICTURES" if picture else "TEXT"))

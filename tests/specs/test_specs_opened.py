@@ -14,7 +14,7 @@ from yellowiron.specs.layout.grids.partly_ruled import merged
 from yellowiron.specs.layout.statement import Statement
 from yellowiron.specs.machines import with_machines
 from yellowiron.specs.pages.strokes import DrawnRule
-from yellowiron.specs.pages.words import _from_the_right, _Glyph
+from yellowiron.specs.pages.words import _Glyph, _joined
 from yellowiron.specs.values.claims import claims_of
 
 _POINT: DecimalStyle = "point"
@@ -31,9 +31,9 @@ def glyphs(text: str, x: float) -> list[_Glyph]:
 def test_text_written_from_its_right_end_is_joined_and_its_brackets_stand_right() -> None:
     # "8000 (3500)": PDFium gives the last bracket first, and mirrors both.
     runs = [glyphs("(", 60.0), glyphs("3500", 44.0), glyphs(")", 40.0), glyphs("8000", 20.0)]
-    assert ["".join(g.text for g in run) for run in _from_the_right(runs)] == ["(3500)", "8000"]
+    assert ["".join(g.text for g in run) for run in _joined(runs)] == ["(3500)", "8000"]
     plain = [glyphs("8000", 20.0), glyphs("(3500)", 40.0)]
-    assert ["".join(g.text for g in run) for run in _from_the_right(plain)] == ["8000", "(3500)"]
+    assert ["".join(g.text for g in run) for run in _joined(plain)] == ["8000", "(3500)"]
 
 
 @pytest.mark.parametrize(

@@ -6,7 +6,6 @@ What it reads is a guess: a digit may be another. Values from such pages are nev
 from __future__ import annotations
 
 import re
-import statistics
 from collections.abc import Callable, Sequence
 from dataclasses import replace
 from pathlib import Path
@@ -17,8 +16,8 @@ from PIL import Image
 from yellowiron.model.errors import SheetError
 from yellowiron.specs.layout.statement import Statement
 from yellowiron.specs.pages.picture_rules import rules_of_picture
-from yellowiron.specs.pages.strokes import SNAP, Box, DrawnRule
-from yellowiron.specs.pages.words import Page, Word, read_page
+from yellowiron.specs.pages.strokes import SNAP, DrawnRule
+from yellowiron.specs.pages.words import PICTURED, Page, Word, read_page, type_unit
 from yellowiron.specs.reader import PageRead, opened_pages, read_words
 from yellowiron.specs.recognition import rapid, tesseract
 from yellowiron.specs.recognition.mending import levelled
@@ -40,10 +39,6 @@ _NEAR = 60.0
 """Points within which words stand by a table's rule."""
 _FEWEST = 4
 """Rules and fills; a file with fewer has its tables in its pictures."""
-_SIZES, _SIZE = (4.0, 18.0), 9.0
-"""Points between which the type of a page is, at its median, and what it is taken for on a page where it is not: there
-the file's points are a picture's pixels."""
-
 
 _SQUARE = re.compile(r"(?<=\d )m[AÂ]?[²2](?!\w)|(?<=\d)m[AÂ]?²")
 """A square metre, or what a cubic one looks like."""
@@ -69,15 +64,13 @@ def recognise(path: Path, numbers: Sequence[int], program: str) -> list[PageRead
     failure: SheetError | None = None
     for number, opened in opened_pages(path, numbers[:MOST_PAGES], "Recognising the text of"):
         try:
-            page, unit = _page(opened, number, program)
+            page = _page(opened, number, program)
         except SheetError as error:  # a page that takes too long costs no other
             failure = error
             continue
         if page.readable:
-            one = read_words(page)
-            statements = tuple(_placed(s, unit) for s in with_cubes(one.statements))
-            near = tuple(replace(n, statement=_placed(n.statement, unit)) for n in one.near)
-            found.append(replace(one, statements=statements, near=near))
+            one = read_words(page, type_unit(page.words, PICTURED))
+            found.append(replace(one, statements=tuple(with_cubes(one.statements))))
     if failure is not None and not found:
         raise failure
     return found
@@ -90,20 +83,9 @@ def with_cubes(statements: Sequence[Statement]) -> list[Statement]:
     return [*statements, *again]
 
 
-def _placed(statement: Statement, unit: float) -> Statement:
-    """A statement with its place in points, read in units of so many points."""
-    box = statement.box
-    return replace(statement, box=_in_units(box, 1 / unit), x0=unit * statement.x0)
-
-
-def _in_units(box: Box, unit: float) -> Box:
-    return (box[0] / unit, box[1] / unit, box[2] / unit, box[3] / unit)
-
-
-def _page(page: object, number: int, program: str) -> tuple[Page, float]:
+def _page(page: object, number: int, program: str) -> Page:
     """A page as it looks, its words read from its picture but for those that the file has as text, its rules and fills
-    from the file or else from the picture; from the top left, in units of which each is so many of the file's points.
-    These are 1, if its type is as large as a sheet's."""
+    from the file or else from the picture."""
     drawn = read_page(page, number)
     width, height = drawn.width, drawn.height
     scale = min(_RESOLUTION[program] / 72.0, (_MOST_PIXELS / max(width * height, 1.0)) ** 0.5)
@@ -113,25 +95,17 @@ def _page(page: object, number: int, program: str) -> tuple[Page, float]:
     typed = drawn.words if drawn.readable else ()
     pictured = len(rules) + len(bars) < _FEWEST and (not typed or not drawn.partly)
     picture = straightened(picture) if pictured else picture
-    words = [*typed, *_beside(typed, spelled(levelled(_WORDS[program](picture, scale))))]
-    size = statistics.median(w.size for w in words) if words else _SIZE
-    unit = 1.0 if _SIZES[0] <= size <= _SIZES[1] else size / _SIZE
-    words = [replace(w, x0=w.x0 / unit, x1=w.x1 / unit, baseline=w.baseline / unit, size=w.size / unit) for w in words]
-    rules = [DrawnRule(*_in_units((r.x0, r.top, r.x1, r.bottom), unit)) for r in rules]
-    if pictured:
-        seen = rules_of_picture(np.asarray(picture), scale * unit)
-        level = [r for r in seen if r.horizontal and _is_by(r, words)]
-        rules += [*level, *(r for r in seen if not r.horizontal and (_is_by(r, words) or _joins(r, level)))]
-    return Page(
-        number,
-        width / unit,
-        height / unit,
-        tuple(words),
-        tuple(rules),
-        tuple(_in_units(b, unit) for b in bars),
-        characters=sum(len(w.text) for w in words),
-        images=1,
-    ), unit
+    words = (*typed, *_beside(typed, spelled(levelled(_WORDS[program](picture, scale)))))
+    characters = sum(len(w.text) for w in words)
+    made = Page(number, width, height, words, tuple(rules), tuple(bars), characters=characters, images=1)
+    if not pictured:
+        return made
+    unit = type_unit(words, PICTURED)
+    sized = made.in_units(unit)
+    seen = rules_of_picture(np.asarray(picture), scale * unit)
+    level = [r for r in seen if r.horizontal and _is_by(r, sized.words)]
+    walls = [r for r in seen if not r.horizontal and (_is_by(r, sized.words) or _joins(r, level))]
+    return replace(sized, rules=(*sized.rules, *level, *walls)).in_units(1 / unit)
 
 
 def _is_by(rule: DrawnRule, words: Sequence[Word]) -> bool:

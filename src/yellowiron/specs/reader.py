@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import functools
 import re
 import time
 from collections.abc import Iterable, Iterator, Sequence
@@ -17,10 +18,11 @@ from yellowiron.specs.layout.facing_pages import with_labels
 from yellowiron.specs.layout.nearest import Near, nearest_of
 from yellowiron.specs.layout.page_cells import Cell, cells_of
 from yellowiron.specs.layout.router import statements_of
-from yellowiron.specs.layout.rows.lines import TextLine, lines_of
-from yellowiron.specs.layout.statement import Statement
+from yellowiron.specs.layout.rows.lines import lines_of
+from yellowiron.specs.layout.statement import Statement, join_boxes
 from yellowiron.specs.machines import titled
-from yellowiron.specs.pages.words import Page, read_page
+from yellowiron.specs.pages.strokes import Box
+from yellowiron.specs.pages.words import TYPED, Page, read_page, type_unit
 from yellowiron.specs.values.stated_configuration import Stated, stated_in
 from yellowiron.support.files.inputs import require_file
 from yellowiron.support.guard import beat, run_guarded
@@ -97,7 +99,7 @@ def read_sheet(path: Path) -> Sheet:
                 late = f"{path.name} takes more than {_MOST_S:g} s: stopped at page {number} of {count}"
                 raise SheetError(late, where=str(path), hint=only)
             page = read_page(opened, number)
-            one = read_words(page)
+            one = read_words(page, type_unit(page.words, TYPED))
             reads.append(replace(one, statements=tuple(proven(one.statements, page))))
             if page.partly or (not page.readable and (page.images or page.characters or page.rules)):
                 silent.append(number)
@@ -136,14 +138,17 @@ def opened_pages(path: Path, numbers: Iterable[int], doing: str, of: str = "") -
                 yield number, page
 
 
-def read_words(page: Page) -> PageRead:
-    """What the words of a page say; its title alone where they mean nothing."""
+def read_words(page: Page, unit: float) -> PageRead:
+    """What the words of a page say, its type in units of so many points; its title alone where they mean nothing."""
     if not page.readable:
         return PageRead(page.number, titles=titled(page))
     text = " ".join(w.text for w in page.words)
-    stated = stated_in(text, page.number)
+    stated, titles = stated_in(text, page.number), titled(page)
+    page = page.in_units(unit)
+    statements = tuple(s.in_points(unit) for s in statements_of(page))
+    near = tuple(replace(n, statement=n.statement.in_points(unit)) for n in nearest_of(page))
     return PageRead(
-        page.number, tuple(statements_of(page)), text, stated, nearest_of(page), titled(page), cells_of(page)
+        page.number, statements, text, stated, near, titles, tuple(c.in_points(unit) for c in cells_of(page))
     )
 
 
@@ -160,18 +165,49 @@ def _states(statement: Statement) -> bool:
 
 
 def proven(statements: Sequence[Statement], page: Page) -> list[Statement]:
-    """The statements, each with whether the words of its quote stand together on their page: side by side on a line,
-    or one after the other in the file's own text. The file's order alone says little: many write all labels first."""
-    lines = [text for line in lines_of(page.words) for text in (_printed(line), line.text)]
-    whole = "\n".join(map(_squeezed, (page.text, *lines)))
+    """The statements, each with whether the words of its quote stand together on their page: side by side on a line, or
+    on lines one over the other. The order in which the file has them says nothing: many write all labels first."""
+    lines = [[((_squeezed(p.printed), _squeezed(p.text)), p.box) for p in line.pieces] for line in lines_of(page.words)]
+    whole = "\n".join("".join(texts[k] for texts, _ in line) for line in lines for k in (0, 1))
+    pieces = [({*texts} - {""}, box) for line in lines for texts, box in line]
+
+    @functools.cache
+    def together(part: str) -> bool:
+        return part in whole or any(
+            text[i] == part[0] and part.startswith(text[i:]) and _goes_on(pieces, part[len(text) - i :], box)
+            for texts, box in pieces
+            for text in texts
+            for i in range(len(text))
+        )
+
     return [
-        s if all(_squeezed(part) in whole for part in s.quote.split(" … ")) else replace(s, proven=False)
+        s if all(together(_squeezed(part)) for part in s.quote.split(" … ")) else replace(s, proven=False)
         for s in statements
     ]
 
 
-def _printed(line: TextLine) -> str:
-    return " ".join(piece.printed for piece in line.pieces)
+_LEADING = 2.0
+"""Lines follow each other within this times their height."""
+
+
+def _goes_on(pieces: Sequence[tuple[set[str], Box]], rest: str, begin: Box) -> bool:
+    """Whether the rest of a quote goes on from the piece that it begins in: behind the last piece, or under what was
+    read so far."""
+    waiting, seen = [(rest, begin, begin)], set[tuple[int, Box]]()
+    while waiting:
+        rest, last, read = waiting.pop()
+        high = last[3] - last[1]
+        behind = [one for one in pieces if one[1][0] >= last[2] - 1 and abs(one[1][3] - last[3]) < high / 2]
+        under = [one for one in pieces if high / 2 <= one[1][3] - last[3] <= _LEADING * high and one[1][0] < read[2]
+                 and read[0] < one[1][2]]  # fmt: skip
+        for texts, box in [*sorted(behind, key=lambda one: one[1][0])[:1], *under]:
+            for text in texts:
+                if text.startswith(rest):
+                    return True
+                if rest.startswith(text) and (len(rest), box) not in seen:
+                    seen.add((len(rest), box))
+                    waiting.append((rest[len(text) :], box, join_boxes((read, box))))
+    return False
 
 
 def _squeezed(text: str) -> str:

@@ -2,11 +2,11 @@
 
 from __future__ import annotations
 
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 
 from yellowiron.specs.layout.rows.headings import body_size, is_heading
 from yellowiron.specs.layout.rows.lines import lines_of
-from yellowiron.specs.layout.statement import kind_of
+from yellowiron.specs.layout.statement import kind_of, scaled
 from yellowiron.specs.pages.strokes import Box
 from yellowiron.specs.pages.words import Page
 
@@ -24,6 +24,10 @@ class Cell:
     size: float
     kind: str
     heading: bool
+
+    def in_points(self, unit: float) -> Cell:
+        """The cell in points, read in units of so many points."""
+        return replace(self, box=scaled(self.box, unit), size=unit * self.size)
 
 
 def cells_of(page: Page) -> tuple[Cell, ...]:

@@ -118,6 +118,10 @@ class Statement:
     sheet: int = 0
     slipped: bool = False
 
+    def in_points(self, unit: float) -> Statement:
+        """The statement with its place in points, read in units of so many points."""
+        return replace(self, box=scaled(self.box, unit), x0=unit * self.x0)
+
 
 def joined(texts: Iterable[str]) -> str:
     """Texts one after the other: a space between them, but none between two of a script without spaces."""
@@ -129,6 +133,11 @@ def joined(texts: Iterable[str]) -> str:
 
 
 _SPACELESS = re.compile(r"[\u3000-\u30ff\u3400-\u9fff\uff00-\uff60]")
+
+
+def scaled(box: Box, by: float) -> Box:
+    """A box so many times as large, as far from the origin."""
+    return (by * box[0], by * box[1], by * box[2], by * box[3])
 
 
 def join_boxes(boxes: Iterable[Box]) -> Box:

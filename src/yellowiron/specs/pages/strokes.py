@@ -40,9 +40,9 @@ class DrawnRule:
         return self.top == self.bottom
 
 
-def strokes_of(page: Any, place: Place) -> tuple[list[DrawnRule], list[Box], int, int]:
+def strokes_of(page: Any, place: Place, unit: float) -> tuple[list[DrawnRule], list[Box], int, int]:
     """Straight rules, filled bars (at least as high as a line of text), the number of images, and that of letters
-    drawn as outlines: small fills side by side."""
+    drawn as outlines: small fills side by side. `unit`: so many points are one of the page's type."""
     import pypdfium2.raw as pdfium
 
     rules: list[DrawnRule] = []
@@ -62,19 +62,19 @@ def strokes_of(page: Any, place: Place) -> tuple[list[DrawnRule], list[Box], int
             left, low, right, high = item.get_bounds()
             box = _extent([place(left, low), place(right, high)])
             tall = box[3] - box[1]
-            if _LETTER[0] < tall < _LETTER[1] and 0.3 < box[2] - box[0] < _WIDEST * tall:
+            if _LETTER[0] * unit < tall < _LETTER[1] * unit and 0.3 < box[2] - box[0] < _WIDEST * tall:
                 letters.append(box)
         for line in points:
             placed = [place(x, y) for x, y in line]
             box = _extent(placed)
-            if mode.value and _is_rectangle(placed):
-                if min(box[2] - box[0], box[3] - box[1]) < _THIN:
+            if mode.value and _is_rectangle(placed, unit):
+                if min(box[2] - box[0], box[3] - box[1]) < _THIN * unit:
                     rules.append(_as_rule(box))
                     continue
-                if box[3] - box[1] >= 6:
+                if box[3] - box[1] >= 6 * unit:
                     bars.append(box)
             if stroked.value:
-                rules.extend(_edges(placed))
+                rules.extend(_edges(placed, unit))
     return rules, bars, images, _in_words(letters)
 
 
@@ -130,11 +130,14 @@ def _extent(points: list[tuple[float, float]]) -> Box:
     return (min(xs), min(ys), max(xs), max(ys))
 
 
-def _is_rectangle(points: list[tuple[float, float]]) -> bool:
+def _is_rectangle(points: list[tuple[float, float]], unit: float) -> bool:
     if not 4 <= len(points) <= 6:
         return False
     x0, top, x1, bottom = _extent(points)
-    return all(min(abs(x - x0), abs(x - x1)) < 0.1 and min(abs(y - top), abs(y - bottom)) < 0.1 for x, y in points)
+    return all(
+        min(abs(x - x0), abs(x - x1)) < 0.1 * unit and min(abs(y - top), abs(y - bottom)) < 0.1 * unit
+        for x, y in points
+    )
 
 
 def _as_rule(box: Box) -> DrawnRule:
@@ -146,11 +149,11 @@ def _as_rule(box: Box) -> DrawnRule:
     return DrawnRule(middle, top, middle, bottom)
 
 
-def _edges(points: list[tuple[float, float]]) -> Iterator[DrawnRule]:
+def _edges(points: list[tuple[float, float]], unit: float) -> Iterator[DrawnRule]:
     for (xa, ya), (xb, yb) in pairwise(points):
-        if abs(ya - yb) < 0.5 and abs(xa - xb) > 3:
+        if abs(ya - yb) < 0.5 * unit and abs(xa - xb) > 3 * unit:
             y = (ya + yb) / 2
             yield DrawnRule(min(xa, xb), y, max(xa, xb), y)
-        elif abs(xa - xb) < 0.5 and abs(ya - yb) > 3:
+        elif abs(xa - xb) < 0.5 * unit and abs(ya - yb) > 3 * unit:
             x = (xa + xb) / 2
             yield DrawnRule(x, min(ya, yb), x, max(ya, yb))

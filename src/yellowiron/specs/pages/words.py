@@ -9,7 +9,10 @@ import contextlib
 import ctypes
 import math
 import re
+import statistics
 import unicodedata
+from bisect import bisect_left, bisect_right
+from collections.abc import Sequence
 from dataclasses import dataclass, field, replace
 from typing import Any
 
@@ -22,6 +25,11 @@ _SIGNS = re.compile(r"[\u00b9\u00b2\u00b3\u2070-\u2079]+(?:[,)\u207e][\u00b9\u00
 """Raised digits that are characters of their own."""
 _DRAWN = (100, 0.12)
 """Letters drawn as outlines, and their share of the page's characters, from which on they are text of it."""
+TYPED, PICTURED = (5.0, 8.0, 12.0), (4.0, 9.0, 18.0)
+"""Points: the type of a sheet at its median is between the first and the last, and the second in units of a page where
+it is not. That of a picture is only seen, and its pixels may be its points."""
+_TOUCH = 0.1
+"""Of the type size; runs of characters that are no farther apart are one word, whatever stands between in the file."""
 _LEADER = re.compile(r"[.·•_…]{3,}|^[.·•_…]+$|(?<=[^\W\d_])[-–—]{2,}$")
 
 
@@ -56,8 +64,8 @@ class Word:
 @dataclass(frozen=True)
 class Page:
     """What stands on a page. `number` counts from 1; `leaders` are dotted lines from a label to its value; `unmapped`
-    characters have no Unicode meaning in the file; `footnotes` are signs and what they stand for; `text` is what the
-    file gives in its own order; `drawn` counts letters that are outlines and no characters."""
+    characters have no Unicode meaning in the file; `footnotes` are signs and what they stand for; `drawn` counts
+    letters that are outlines and no characters."""
 
     number: int
     width: float
@@ -71,12 +79,30 @@ class Page:
     images: int = 0
     drawn: int = 0
     footnotes: dict[str, str] = field(default_factory=dict)
-    text: str = ""
 
     @property
     def readable(self) -> bool:
         """Whether the page has a text layer that means something."""
         return self.characters >= 3 and self.unmapped < 0.3 * self.characters
+
+    def in_units(self, unit: float) -> Page:
+        """The page in units of which each is so many points."""
+
+        def boxes(own: Sequence[Box]) -> tuple[Box, ...]:
+            return tuple((a / unit, b / unit, c / unit, d / unit) for a, b, c, d in own)
+
+        return replace(
+            self,
+            width=self.width / unit,
+            height=self.height / unit,
+            words=tuple(
+                replace(w, x0=w.x0 / unit, x1=w.x1 / unit, baseline=w.baseline / unit, size=w.size / unit)
+                for w in self.words
+            ),
+            rules=tuple(DrawnRule(*box) for box in boxes([(r.x0, r.top, r.x1, r.bottom) for r in self.rules])),
+            bars=boxes(self.bars),
+            leaders=boxes(self.leaders),
+        )
 
     @property
     def partly(self) -> bool:
@@ -94,6 +120,8 @@ class _Glyph:
     bold: bool
     ends: bool = False
     """Whether PDFium sees a space behind it, though the file has none."""
+    spaced: bool = False
+    """Whether the file has a space behind it."""
 
 
 def read_page(page: Any, number: int) -> Page:
@@ -104,11 +132,10 @@ def read_page(page: Any, number: int) -> Page:
     textpage = page.get_textpage()
     try:
         glyphs, characters, unmapped = _glyphs(textpage, place, (width, height))
-        text = textpage.get_text_range()
     finally:
         textpage.close()
-    rules, bars, images, drawn = strokes_of(page, place)
     words, leaders = _words(glyphs)
+    rules, bars, images, drawn = strokes_of(page, place, type_unit(words, TYPED))
     return Page(
         number=number,
         width=width,
@@ -121,8 +148,14 @@ def read_page(page: Any, number: int) -> Page:
         unmapped=unmapped,
         images=images,
         drawn=drawn,
-        text=text,
     )
+
+
+def type_unit(words: Sequence[Word], usual: tuple[float, float, float]) -> float:
+    """So many points are a unit of a page of which the type has, at its median, the usual size: what is near or thin
+    on a page depends on that, and not on the paper. 1 where it is about as large as a sheet's."""
+    size = statistics.median(w.size for w in words) if words else usual[1]
+    return 1.0 if usual[0] <= size <= usual[2] else size / usual[1]
 
 
 def _placement(page: Any) -> Place:
@@ -198,22 +231,52 @@ def _glyphs(textpage: Any, place: Place, size_of_page: tuple[float, float]) -> t
 _CLOSING, _OPENING = {"(": ")", "[": "]"}, {")": "(", "]": "["}
 
 
-def _from_the_right(runs: list[list[_Glyph]]) -> list[list[_Glyph]]:
-    """The runs, those joined that the file writes from their right end, each touching the one before. PDFium takes such
-    text for Arabic and gives the mirror images of some brackets: none closes a word's begin or opens its end."""
-    groups: list[list[list[_Glyph]]] = []
-    for run in runs:
-        right, last = groups[-1][-1][0] if groups else run[0], run[-1]
-        touch = abs(right.x0 - last.x1) < 0.1 * last.size and abs(right.baseline - last.baseline) < 0.1 * last.size
-        if groups and touch and run[0].x0 < right.x0:
-            groups[-1].append(run)
-        else:
-            groups.append([run])
-    joined = [[glyph for run in reversed(group) for glyph in run] for group in groups]
-    for word in (word for word, group in zip(joined, groups, strict=True) if len(group) > 1):
-        word[0].text = _OPENING.get(word[0].text, word[0].text)
-        word[-1].text = _CLOSING.get(word[-1].text, word[-1].text)
-    return joined
+def _joined(runs: list[list[_Glyph]]) -> list[list[_Glyph]]:
+    """The runs, those joined of which one begins where another ends, in whatever order the file has them. PDFium takes
+    what is written from its right end for Arabic and gives the mirror images of some brackets: none closes a word's
+    begin or opens its end."""
+    ordered = sorted(range(len(runs)), key=lambda i: runs[i][0].x0)
+    begins = [runs[i][0].x0 for i in ordered]
+    after: dict[int, int] = {}
+    begun: set[int] = set()
+    for index in ordered:
+        first, last = runs[index][0], runs[index][-1]
+        near = ordered[
+            bisect_left(begins, last.x1 - _TOUCH * last.size) : bisect_right(begins, last.x1 + _TOUCH * last.size)
+        ]
+        # a space behind a run is on its other side where that is written from its right end
+        touching = [
+            i for i in near
+            if runs[i][0].x0 > first.x0 and i not in begun and _alike(last, runs[i][0])
+            and (i < index or not last.spaced)
+        ]  # fmt: skip
+        if touching:
+            after[index] = min(touching, key=lambda i: abs(runs[i][0].x0 - last.x1))
+            begun.add(after[index])
+    words: list[list[_Glyph]] = []
+    for index in range(len(runs)):
+        if index in begun:
+            continue
+        word = list(runs[index])
+        follows = after.get(index)
+        while follows is not None:
+            word += runs[follows]
+            follows = after.get(follows)
+        if index in after:
+            word[0].text = _OPENING.get(word[0].text, word[0].text)
+            word[-1].text = _CLOSING.get(word[-1].text, word[-1].text)
+        words.append(word)
+    return words
+
+
+def _gap(last: _Glyph) -> float:
+    """How far the next character of a word may be, of the type size."""
+    return 0.12 if last.ends else 0.22
+
+
+def _alike(one: _Glyph, other: _Glyph) -> bool:
+    """Whether two characters are on one line, in one size."""
+    return abs(one.baseline - other.baseline) < 0.1 * one.size and abs(one.size - other.size) < 0.2 * one.size
 
 
 _SPELLED = {0x02: "-", 0xAD: "-", 0x2010: "-", 0x2011: "-"}
@@ -234,31 +297,25 @@ def _bold(textpage: Any, index: int) -> bool:
 def _words(glyphs: list[_Glyph]) -> tuple[list[Word], list[Box]]:
     """Characters that follow each other without a gap, raised ones joined to the word before them; and the leaders."""
     runs: list[list[_Glyph]] = []
-    broken = True
     for glyph in glyphs:
+        last = runs[-1][-1] if runs else None
         if glyph.text == " ":
-            broken = True
-            continue
-        last = runs[-1][-1] if runs and not broken else None
-        if (
+            if last is not None:
+                last.spaced = True
+        elif (
             last is not None
-            and abs(last.baseline - glyph.baseline) < 0.1 * last.size
-            and abs(last.size - glyph.size) < 0.2 * last.size
-            and -0.5 * last.size < glyph.x0 - last.x1 < (0.12 if last.ends else 0.22) * last.size
+            and not last.spaced
+            and _alike(last, glyph)
+            and -0.5 * last.size < glyph.x0 - last.x1 < _gap(last) * last.size
         ):
             runs[-1].append(glyph)
         else:
             runs.append([glyph])
-        broken = False
+    once = {_place(run): run for run in reversed(runs)}  # what is printed twice to look bold
     words: list[Word] = []
     leaders: list[Box] = []
-    seen: set[tuple[str, int, int]] = set()
-    for run in _from_the_right(runs):
+    for run in _joined([*reversed(once.values())]):
         text = "".join(g.text for g in run)
-        key = (text, round(run[0].x0), round(run[0].baseline))
-        if key in seen:  # printed twice to look bold
-            continue
-        seen.add(key)
         start = 0
         for match in [*_LEADER.finditer(text), None]:
             end = match.start() if match else len(run)
@@ -268,6 +325,12 @@ def _words(glyphs: list[_Glyph]) -> tuple[list[Word], list[Box]]:
                 leaders.append(_word(run[match.start() : match.end()]).box)
                 start = match.end()
     return _with_superscripts(words), leaders
+
+
+def _place(run: list[_Glyph]) -> tuple[str, int, int]:
+    """What a run says, and about where."""
+    grain = 0.12 * run[0].size
+    return "".join(g.text for g in run), round(run[0].x0 / grain), round(run[0].baseline / grain)
 
 
 def _word(run: list[_Glyph]) -> Word:
