@@ -68,8 +68,8 @@ def assemble(
             empty.append("/".join((*item.path, item.name)))
         else:
             drawn.append((item, shape))
-    # What is far beyond most others is damaged; where more than half are far, the unit is another one, which the machine
-    # will tell.
+    # What is far beyond most others is damaged; where more than half are far, the unit is another one, which the
+    # machine will tell.
     reached = sorted(_reach(s, i.transform) for i, s in drawn)
     usual = reached[(len(reached) - 1) // 2] if reached else 0.0
     most = min(max(LARGEST, FARTHER * usual), LARGEST / FINEST)
