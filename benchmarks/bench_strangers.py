@@ -42,7 +42,7 @@ import numpy as np
 ROOT = Path(__file__).resolve().parent.parent
 sys.path[:0] = [str(ROOT / "src"), str(ROOT / "tests"), str(ROOT / "benchmarks")]
 
-from kit.machines.damages import DAMAGES, EXTRA, KINDS  # noqa: E402
+from kit.machines.damages import ALL, DAMAGES, EXTRA, KINDS  # noqa: E402
 from kit.machines.defects import crowded, drawn  # noqa: E402
 from kit.machines.excavators import excavator  # noqa: E402
 from kit.machines.synthetic import Machine  # noqa: E402
@@ -251,7 +251,7 @@ def main() -> None:
     parser = argparse.ArgumentParser(description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter)
     parser.add_argument("--first", type=int, default=0)
     parser.add_argument("--count", type=int, default=2)
-    parser.add_argument("--kinds", default=",".join(KINDS))
+    parser.add_argument("--kinds", default=",".join(KINDS), help=f"some of {', '.join(ALL)}")
     parser.add_argument("--damages", default=",".join(DAMAGES))
     parser.add_argument("--names", default="without")
     parser.add_argument("--turn", default="upright", choices=("upright", "any"))

@@ -1,7 +1,8 @@
 """What each kind of evidence counts where contacts find no machine: `alignment/data/fusion.json`, fitted to machines
 whose truth is known.
 
-    python benchmarks/fit_fusion.py collect FOLDER [--first SEED] [--count N] [--damages …] [--real] [--models DIR]
+    python benchmarks/fit_fusion.py collect FOLDER [--first SEED] [--count N] [--damages …]
+    python benchmarks/fit_fusion.py collect FOLDER --real [--models DIR] [--shake S,…]
     python benchmarks/fit_fusion.py fit FOLDER [--rounds N] [--loyal L] [--jobs N]
     python benchmarks/fit_fusion.py cross FOLDER [--rounds N] [--loyal L,…] [--folds K] [--jobs N]
     python benchmarks/fit_fusion.py show FOLDER [--jobs N]
@@ -38,9 +39,11 @@ from scipy.spatial import cKDTree
 ROOT = Path(__file__).resolve().parent.parent
 sys.path[:0] = [str(ROOT / "src"), str(ROOT / "tests"), str(ROOT / "benchmarks")]
 
-from bench_strangers import FOLDERS, LABELS, models, scene_of  # noqa: E402
+from bench_strangers import FOLDERS, LABELS  # noqa: E402
 from kit.machines.damages import DAMAGES  # noqa: E402
 from kit.scene import Scene, scene  # noqa: E402
+from strangers_models import Model, models, scene_of, upright_of  # noqa: E402
+from strangers_shaken import shaken  # noqa: E402
 from yellowiron.alignment import pipeline  # noqa: E402
 from yellowiron.alignment.fusion import reading  # noqa: E402
 from yellowiron.alignment.fusion.annealing import labelled  # noqa: E402
@@ -115,9 +118,9 @@ def problems_of(name: str, given: Scene) -> list[Problem]:
     seen: list[Any] = []
     usual = pipeline.fused
 
-    def caught(observation: Any, template: Template, variants: Any, scores: Any, answer: Any, edited: Any) -> Any:
+    def caught(observation: Any, template: Template, variants: Any, scores: Any, answer: Any, *more: Any) -> Any:
         seen.append((observation, template, variants, scores, answer))
-        return usual(observation, template, variants, scores, answer, edited)
+        return usual(observation, template, variants, scores, answer, *more)
 
     pipeline.fused = caught
     try:
@@ -328,7 +331,9 @@ def _scenes(given: argparse.Namespace) -> Iterator[tuple[str, Callable[[], Scene
         for model in models([Path(f) for f in given.models.split(":") if f], LABELS):
             if not model.held_back and model.cad is not None:
                 for names in ("with", "without"):
-                    yield f"{model.name}-{names}", partial(scene_of, model, names=names)
+                    for shake in given.shake.split(","):
+                        told = f"{model.name}-{names}-{shake}".rstrip("-")
+                        yield told, partial(_real, model, names, shake)
         return
     for damage in given.damages.split(","):
         for kind in DAMAGES[damage].kinds:
@@ -379,6 +384,11 @@ def crossed(folder: Path, given: argparse.Namespace) -> None:
     sys.stdout.write(f"CROSS {' / '.join(tables)}: " + " ".join(f"{v:6.2f}" for v in means) + "\n")
 
 
+def _real(model: Model, names: str, shake: str) -> Scene:
+    made = scene_of(model, names=names)
+    return shaken(made, shake, upright_of(model, made.joints)) if shake else made
+
+
 DRAWN = ("loader", "excavator", "drawn")
 
 
@@ -405,6 +415,7 @@ def main() -> None:
     parser.add_argument("--count", type=int, default=1)
     parser.add_argument("--damages", default=",".join(d for d in DAMAGES if d not in ("sound", "one mesh")))
     parser.add_argument("--real", action="store_true")
+    parser.add_argument("--shake", default="", help="several: with commas; an empty one is the model as drawn")
     parser.add_argument("--models", default=os.environ.get(FOLDERS, ""))
     parser.add_argument("--rounds", type=int, default=4)
     parser.add_argument("--loyal", default="0.1")

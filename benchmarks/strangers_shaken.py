@@ -15,6 +15,8 @@ import trimesh
 
 from kit.machines.solids import Array
 from kit.scene import Scene, Surface, centres_of
+from strangers_renamed import half_named, other_sides, otherwise_named
+from yellowiron.alignment import twin_role
 from yellowiron.alignment.square import turned
 from yellowiron.cad.mesh import measures
 from yellowiron.cad.mesh.assembly import Occurrence, assemble
@@ -140,9 +142,47 @@ def _shells(scene: Scene, up: Array) -> Scene:
     return _drawn(scene, found, whole=False)
 
 
+def _mirrored(scene: Scene, up: Array) -> Scene:
+    """Its own mirror image: what was left is right, and is called so."""
+    across = int(np.argmin(np.abs(up)))
+    mirror = np.eye(4)
+    mirror[across, across] = -1.0
+    sign = np.diag(mirror)[:3]
+    pieces = [
+        replace(piece, mesh=Mesh(sign * piece.mesh.points, piece.mesh.triangles[:, ::-1])) for piece in _pieces(scene)
+    ]
+    nodes = tuple(replace(n, transform=mirror @ n.transform @ mirror) for n in scene.assembly.nodes)
+    joints = tuple(
+        replace(
+            j, point=tuple(sign * j.point), axis=tuple(sign * j.axis), bodies=tuple(_twin(b) for b in j.bodies),
+            others=tuple(tuple(_twin(b) for b in end) for end in j.others),
+        )
+        for j in scene.joints
+    )  # fmt: skip
+    labels = tuple((_twin(role), "|".join(_twin(b) for b in body.split("|"))) for role, body in scene.truth.labels)
+    assembly = replace(scene.assembly, nodes=nodes)
+    truth = replace(scene.truth, labels=labels)
+    return other_sides(_drawn(replace(scene, assembly=assembly, joints=joints, truth=truth), pieces))
+
+
+def _twin(name: str) -> str:
+    return twin_role(name) or name
+
+
+def _half_named(scene: Scene, up: Array) -> Scene:
+    """Half of its names lost."""
+    return half_named(scene)
+
+
+def _otherwise_named(scene: Scene, up: Array) -> Scene:
+    """Its names in other spellings."""
+    return otherwise_named(scene)
+
+
 SHAKES: dict[str, Callable[[Scene, Array], Scene]] = {
     "turned": _turned, "scaled": _scaled, "reversed": _reversed, "loose": _loose, "bare": _bare, "thinned": _thinned,
-    "one mesh": _one_mesh, "shells": _shells,
+    "one mesh": _one_mesh, "shells": _shells, "mirrored": _mirrored, "half named": _half_named,
+    "other names": _otherwise_named,
 }  # fmt: skip
 
 

@@ -114,6 +114,24 @@ def test_rims_of_spokes_and_tyres_with_treads_are_of_their_wheel() -> None:
     assert all(w.radius == pytest.approx(0.73, abs=0.02) for w in found)
 
 
+def test_lugs_that_are_parts_by_themselves_are_of_the_wheel_that_they_go_around() -> None:
+    """Wheels of a bogie, whose lugs almost touch: each has its own. Nuts about a hub are not a tread's."""
+    quarter = trimesh.transformations.rotation_matrix(np.pi / 2, [1, 0, 0])
+    tyre = trimesh.creation.annulus(0.3, 0.6, 0.5, sections=48, transform=quarter)
+    places = [(x, y, 0.7) for x in (-2.0, -0.6, 2.0) for y in (-1.0, 1.0)]
+    turns = [trimesh.transformations.rotation_matrix((k + 0.5) * np.pi / 8, [0, 1, 0]) for k in range(16)]
+
+    def around(reach: float, mesh: trimesh.Trimesh) -> list[trimesh.Trimesh]:
+        return [mesh.copy().apply_translation((reach, 0.0, 0.0)).apply_transform(turn) for turn in turns]
+
+    rows = [[tyre, *around(0.62, box(0.08, 0.4, 0.07)), *around(0.2, box(0.05, 0.5, 0.03))] for _ in places]
+    every = solids(*((mesh, at) for row, at in zip(rows, places, strict=True) for mesh in row))
+    found = wheels_of(every, 6, set(), 1e-3)
+    numbers = [sorted(int(every[i].part.name.split()[1]) for i in w.members) for w in found]
+    assert sorted(numbers) == [[33 * k + n for n in range(17)] for k in range(6)]
+    assert all(w.radius == pytest.approx(0.66, abs=0.01) for w in found)
+
+
 def lugged(radius: float, width: float, lugs: int = 20) -> trimesh.Trimesh:
     """A tyre whose tread is lugs alone, about Y: no face of it is round."""
     count = 2 * lugs

@@ -113,6 +113,19 @@ def test_one_part_that_is_far_away_is_damaged_and_all_that_are_have_another_unit
     )
 
 
+def test_a_small_machine_in_millimetres_keeps_what_is_far_from_its_middle() -> None:
+    """Of five cubes in a row three reach less than a kilometre, and are no more the machine than the others."""
+    cube = box("cube", 200.0, 200.0, 200.0).mesh
+    placed = []
+    for number, x in enumerate((0.0, 300.0, 600.0, 1200.0, 2400.0)):
+        place = np.eye(4)
+        place[0, 3] = x
+        placed.append(Occurrence(f"cube {number}", (), cube, place))
+    found = assemble(placed, name="x", format="STL", unit=1.0, path="x.stl")
+    assert len(found.parts) == 5
+    assert [f.code for f in found.findings if f.code.startswith("CAD00")] == ["CAD004"]
+
+
 def halves(mesh: Mesh) -> Mesh:
     """A mesh and its mirror image, 1 m to the other side of x = 0."""
     points = mesh.points * np.array([-1.0, 1.0, 1.0])

@@ -8,17 +8,19 @@ scene.joints                   # the axes of what is drawn
 
 from __future__ import annotations
 
-from collections.abc import Mapping
+from collections.abc import Collection, Mapping
 from dataclasses import dataclass, field, replace
 
 import numpy as np
 
 from kit.machines.damages import EXTRA, base, damaged
+from kit.machines.drawers import DRAWERS
 from kit.machines.excavators import any_features
 from kit.machines.mixed import world_mesh
 from kit.machines.solids import Array
 from kit.machines.spoken_names import named
 from kit.machines.synthetic import Machine
+from yellowiron.alignment.assignment.search import variants_of
 from yellowiron.cad.mesh.assembly import Occurrence, assemble
 from yellowiron.library import load_template
 from yellowiron.mechanism import build_mechanism
@@ -31,7 +33,7 @@ from yellowiron.model.rows import expand
 from yellowiron.model.specification import Specifications
 from yellowiron.model.template import Template, choose
 
-TEMPLATES = {"loader": "wheel_loader", "excavator": "excavator"}
+TEMPLATES = {"loader": "wheel_loader", "excavator": "excavator", **{kind: of for kind, (_, of) in DRAWERS.items()}}
 ROWS = ("track_shoe", "track_roller", "carrier_roller", "sprocket", "idler")
 
 
@@ -165,7 +167,19 @@ def true_choices(machine: Machine, kind: str, seed: int) -> dict[str, str]:
     """The template's variants that a drawn machine is."""
     if kind == "excavator":
         return any_features(seed).choices()
+    if kind in DRAWERS:
+        return _fitting(load_template(TEMPLATES[kind]), {body for _, body in machine.truth.values()})
     return {"lift_cylinders": "twin" if machine.twin else "single"}
+
+
+def _fitting(template: Template, drawn: Collection[str]) -> dict[str, str]:
+    """The variant that has most of the bodies that are drawn, and fewest others."""
+
+    def fits(chosen: dict[str, str]) -> int:
+        bodies = {r.name for r in choose(template, chosen).roles if r.rigid and not r.optional and not r.many}
+        return len(bodies ^ {b for b in drawn if template.knows(b)})
+
+    return min(variants_of(template, {}), key=fits)
 
 
 def true_alignment(machine: Machine, kind: str, seed: int) -> tuple[Template, Alignment]:

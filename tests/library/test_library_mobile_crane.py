@@ -83,3 +83,13 @@ def test_only_places_tell_its_axles_and_outriggers_apart(template: Template) -> 
     # A telehandler's axles are not alike: one oscillates.
     telehandler = choose(library.load_template("telehandler"), {})
     assert not any("front_knuckle_l" in group for group in interchangeable(telehandler))
+
+
+def test_what_was_not_found_tells_no_axles_apart() -> None:
+    """A telehandler's front axle is levelled by a cylinder: without that, both oscillate and steer alike."""
+    levelled = choose(library.load_template("telehandler"), {"frame_levelling": "cylinder"})
+    joints = {j.name for j in levelled.joints}
+    found = {name for name in joints if "levelling" not in name}
+    pair = frozenset({"front_axle", "rear_axle"})
+    assert pair not in interchangeable(levelled, found=joints)
+    assert pair in interchangeable(levelled, found=found)

@@ -64,7 +64,7 @@ from yellowiron.alignment.labelling.propagation import Propagation
 from yellowiron.alignment.labelling.rams import with_rams
 from yellowiron.alignment.labelling.result import Labels, to_alignment
 from yellowiron.alignment.labelling.review import name_findings, review_findings
-from yellowiron.alignment.labelling.suspects import maybe_unplayed, otherwise, suspect_bodies
+from yellowiron.alignment.labelling.suspects import maybe_unplayed, meagre, otherwise, suspect_bodies
 from yellowiron.alignment.labelling.track_places import (
     no_surer_than_frames,
     on_tracks,
@@ -73,7 +73,8 @@ from yellowiron.alignment.labelling.track_places import (
     upright,
     without_tracks,
 )
-from yellowiron.alignment.labelling.undercut import too_low, undercut
+from yellowiron.alignment.labelling.undercut import regrounded, too_low, undercut
+from yellowiron.alignment.structure.ground_cut import parted
 from yellowiron.alignment.structure.observation import Observation, observe
 from yellowiron.alignment.tolerances import CONTACT
 from yellowiron.alignment.undrawn import undrawn
@@ -155,14 +156,18 @@ def align(
 
     @functools.cache
     def look(contact: float) -> Observation:
-        return replace(observe(machine, plain, contact), up=up, rows=rows)
+        return parted(replace(observe(machine, plain, contact), up=up, rows=rows), plain)
 
     search = Search(look, plain, specifications, choices, edited)
     answer, observation, scores = search.run()
+    answer, fallen = regrounded(observation, answer)
     agreement = search.agreement
     held = held_share(answer) >= (HELD_TOLD if edited else HELD) and shows_what_is_special(answer, plain)
     share = drawn_share(answer, observation.solids)
-    explained = held or share >= EXPLAINED
+    # A body of which hardly anything is found lies in another's, welded to it: its joints were found beside it.
+    torn = not is_whole(answer) and bool(meagre(answer.template, _surfaces(observation, answer)))
+    held = held and not torn
+    explained = held or (share >= EXPLAINED and not torn)
     contradicted = agreement < BELIEVED and not is_whole(answer)
     # Joints that are held while much of what is drawn is left over may be another machine's.
     strained = held and share < STRAINED and not is_whole(answer)
@@ -197,6 +202,7 @@ def align(
         scores,
         frame.matrix[2, :3] if frame is not None else np.array([0.0, 0.0, 1.0]),
         never=too_low(observation, answer),
+        doubts=fallen if answer.judged is None else {},
         rivals=rivals,
         suspects={}
         if answer.judged is not None

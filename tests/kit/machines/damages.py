@@ -16,6 +16,7 @@ import trimesh
 from kit.machines import solids
 from kit.machines import surfaces as s
 from kit.machines.defects import drawn
+from kit.machines.drawers import DRAWERS
 from kit.machines.mixed import by_material, one_mesh, world_mesh
 from kit.machines.solids import lathe
 from kit.machines.surroundings import EXTRA, attachment, copied, extras, ground_plate
@@ -23,9 +24,10 @@ from kit.machines.synthetic import Machine, loader
 from yellowiron.model.assembly import Part
 from yellowiron.model.geometry import Mesh
 
-__all__ = ["DAMAGES", "EXTRA", "KINDS", "Damage", "base", "damaged"]
+__all__ = ["ALL", "DAMAGES", "EXTRA", "KINDS", "Damage", "base", "damaged"]
 
 KINDS = ("loader", "excavator")
+ALL = (*KINDS, *DRAWERS)
 Change = Callable[[Machine, np.random.Generator], Machine]
 
 
@@ -179,32 +181,32 @@ def _prism(mesh: Mesh) -> Mesh:
 
 
 DAMAGES: dict[str, Damage] = {
-    "sound": Damage(unharmed),
-    "decimated 70": Damage(s.decimated(0.7)),
-    "decimated 30": Damage(s.decimated(0.3)),
-    "opened": Damage(s.opened),
-    "open pins": Damage(s.open_pins),
-    "loose pins": Damage(s.loose_pins),
-    "duplicate faces": Damage(s.duplicate_faces),
-    "inverted": Damage(s.inverted_faces),
-    "double-sided": Damage(s.double_sided),
-    "z-fighting": Damage(s.z_fighting),
-    "8-gon": Damage(unharmed, segments=8),
-    "scale slips": Damage(s.scale_slips),
-    "mirrored": Damage(s.mirrored),
-    "node scale": Damage(s.node_scale),
-    "by material": Damage(by_material),
-    "one mesh": Damage(one_mesh),
+    "sound": Damage(unharmed, kinds=ALL),
+    "decimated 70": Damage(s.decimated(0.7), kinds=ALL),
+    "decimated 30": Damage(s.decimated(0.3), kinds=ALL),
+    "opened": Damage(s.opened, kinds=ALL),
+    "open pins": Damage(s.open_pins, kinds=ALL),
+    "loose pins": Damage(s.loose_pins, kinds=ALL),
+    "duplicate faces": Damage(s.duplicate_faces, kinds=ALL),
+    "inverted": Damage(s.inverted_faces, kinds=ALL),
+    "double-sided": Damage(s.double_sided, kinds=ALL),
+    "z-fighting": Damage(s.z_fighting, kinds=ALL),
+    "8-gon": Damage(unharmed, kinds=ALL, segments=8),
+    "scale slips": Damage(s.scale_slips, kinds=ALL),
+    "mirrored": Damage(s.mirrored, kinds=ALL),
+    "node scale": Damage(s.node_scale, kinds=ALL),
+    "by material": Damage(by_material, kinds=ALL),
+    "one mesh": Damage(one_mesh, kinds=ALL),
     "half": Damage(half, straight=True),
     "no cylinders": Damage(no_cylinders),
     "no undercarriage": Damage(no_undercarriage),
     "work equipment": Damage(work_equipment),
-    "ground": Damage(ground_plate),
+    "ground": Damage(ground_plate, kinds=ALL),
     "extras": Damage(with_extras),
     "attachment": Damage(attachment),
-    "millimetres": Damage(s.in_unit(1000.0)),
-    "centimetres": Damage(s.in_unit(100.0)),
-    "inches": Damage(s.in_unit(1 / 0.0254)),
+    "millimetres": Damage(s.in_unit(1000.0), kinds=ALL),
+    "centimetres": Damage(s.in_unit(100.0), kinds=ALL),
+    "inches": Damage(s.in_unit(1 / 0.0254), kinds=ALL),
     "belts": Damage(belts, kinds=("excavator",)),
     "low-poly wheels": Damage(low_poly_wheels),
 }
@@ -218,7 +220,7 @@ def base(kind: str, seed: int, damage: str) -> Machine:
         if how.straight and kind == "loader":
             rng = np.random.default_rng([seed, 23])
             return loader(seed, embedded=bool(rng.random() < 0.5), steered=False)
-        return drawn(kind, seed, segments=how.segments)
+        return DRAWERS[kind][0](seed) if kind in DRAWERS else drawn(kind, seed, segments=how.segments)
     finally:
         solids.CORNERS = corners
 

@@ -315,6 +315,13 @@ def unnamed(names: Iterable[str]) -> frozenset[str]:
     return frozenset(sure | doubtful) if sure else frozenset()
 
 
+def own_words(text: str) -> list[str]:
+    """The `tokens` of a name in the order of letters, without those that modelling tools give: `node_12_boom-l_mesh0`
+    says no more than `L boom`."""
+    known = _defaults()
+    return sorted(t for t in tokens(text) if known.get(t, True))
+
+
 @functools.cache
 def _defaults() -> Mapping[str, bool]:
     """Word that modelling tools give → whether a machine may have a part of that name."""

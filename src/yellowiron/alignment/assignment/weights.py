@@ -134,16 +134,19 @@ def size_weights(solids: tuple[Solid, ...], structure: Structure, template: Temp
     return found
 
 
-def interchangeable(template: Template, *, joints: bool = True) -> list[frozenset[str]]:
+def interchangeable(
+    template: Template, *, joints: bool = True, found: Collection[str] | None = None
+) -> list[frozenset[str]]:
     """Groups of bodies whose names differ in front, middle, rear, left, right alone and which the joints do not tell
     apart: a machine's four wheels on one chassis, and what steers two axles alike. Only where they stand tells which is
-    which. Without `joints`, whatever they hang on: where a person said what is ahead, that tells as much."""
+    which. Without `joints`, whatever they hang on: where a person said what is ahead, that tells as much. `found`: the
+    names of the joints that tell anything; all, if it is not given."""
     rigid = [r.name for r in template.roles if r.rigid]
     plain = {name: SIDE.sub("", END.sub("", name)) for name in rigid}
     joined: dict[str, list[tuple[str, str]]] = {name: [] for name in rigid}
     for joint in template.joints:
         a, b = template.bodies_of(joint)
-        if a in joined and b in joined:
+        if a in joined and b in joined and (found is None or joint.name in found):
             joined[a].append((joint.type, b))
             joined[b].append((joint.type, a))
     # Bodies that are joined alike to bodies that are joined alike, and so on.
@@ -278,6 +281,9 @@ def side_weights(
         return np.asarray(frame.matrix[:3, :3] @ middle + frame.matrix[:3, 3], dtype=np.float64)
 
     ends = interchangeable(template, joints=not frame.told)
+    if not frame.told and any(r.kind == "arm" and r.rigid for r in template.roles):
+        # What was not found (a levelling cylinder at one of two axles) tells nothing apart; the arms are ahead.
+        ends += interchangeable(template, found={*solution.hinge_of, *solution.slide_of})
     alike = {names | {twin_role(name) or name for name in names} for names in ends}
     for names in sorted(alike, key=sorted):
         there = {name: place(cluster_of[name]) for name in names if name in cluster_of}

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import itertools
+from collections.abc import Sequence
 from dataclasses import dataclass, replace
 
 import numpy as np
@@ -48,6 +49,9 @@ from others, and has so many corners (a dodecagon is 0.966, an octagon 0.92)."""
 ASIDE, BESIDE = 0.02, 1.6
 """Twin tyres are this near to one axis, in radii, and this near to each other, in widths between their middles."""
 
+LUGS, OUTER = 8, 0.8
+"""So many equal solids or more, all round a wheel, their middles this far out at least, in its radii, are its lugs."""
+
 BOGIE, IN_LINE = (1.8, 3.2), 0.5
 """The axles of a bogie are so many radii apart, its wheels so many widths out of line at most."""
 DRUM = (1.5, 6.0)
@@ -80,13 +84,13 @@ def spare_wheels(solids: tuple[Solid, ...], template: Template, tolerance: float
     """The wheels of axles that a type does not have: of a bogie's axles all but one, else, of more than two axles in a
     row, those between the first and the last. None where neither leaves as many wheels as the type has."""
     count = sum(r.kind == "wheel" and r.rigid and not r.drum and not r.many for r in template.roles)
-    equal = _equal_rings(solids, set()) if count else []
-    if len(equal) <= count or len(equal := _twin_tyres(equal)) <= count:
+    rings = _equal_rings(solids, set()) if count else []
+    if len(rings) <= count or len(equal := _twin_tyres(rings)) <= count:
         return []
     ways = (_bogies(equal), _inner_axles(equal))
     spare = next((spare for kept, spare in ways if len(kept) == count), [])
     # All that is about a spare wheel, its twin tyre too; what it stands beside is the tyre of one that is kept.
-    whole = [(_with_all_about(w, solids, set(), tolerance), w.members, beside) for w, beside in spare]
+    whole = [(_with_all_about(w, solids, set(), tolerance, rings), w.members, beside) for w, beside in spare]
     return [SpareWheel(_all_within(w, solids), tyres, w.center, w.direction, beside) for w, tyres, beside in whole]
 
 
@@ -178,10 +182,10 @@ def wheels_of(solids: tuple[Solid, ...], count: int, taken: set[int], tolerance:
     """
     if count == 0:
         return []
-    equal = _equal_rings(solids, taken)
+    equal = rings = _equal_rings(solids, taken)
     if len(equal) > count:
         equal = _twin_tyres(equal)
-    return [_with_all_about(w, solids, taken, tolerance) for w in equal[:count]] if len(equal) >= 2 else []
+    return [_with_all_about(w, solids, taken, tolerance, rings) for w in equal[:count]] if len(equal) >= 2 else []
 
 
 def _equal_rings(solids: tuple[Solid, ...], taken: set[int]) -> list[Wheel]:
@@ -269,14 +273,18 @@ def _same_place(wheel: Wheel, direction: Floats, centre: Floats) -> bool:
     return off < 0.1 * wheel.radius and along < wheel.width
 
 
-def _with_all_about(wheel: Wheel, solids: tuple[Solid, ...], taken: set[int], tolerance: float) -> Wheel:
+def _with_all_about(
+    wheel: Wheel, solids: tuple[Solid, ...], taken: set[int], tolerance: float, rings: Sequence[Wheel] = ()
+) -> Wheel:
     """Everything round about the wheel's axis that is mostly between its sides; and what is about it, as high as it is
-    long, and wholly between them: rims of spokes, hubs with their bolts, a tyre whose tread is not round."""
+    long, and wholly between them: rims of spokes, hubs with their bolts, a tyre whose tread is not round; and a tread's
+    lugs, each by itself, that are nearer to it than to another of the `rings`."""
     axis = solids[wheel.tyre].axis or Cyl(
         wheel.center, wheel.direction, wheel.radius, 0.5 * wheel.width, 2.0 * np.pi, inner=False
     )
     members = set(wheel.members)
     half, radius = 0.5 * wheel.width, wheel.radius
+    aside: dict[str, list[Solid]] = {}
     for s in solids:
         if s.index in taken or s.index in members:
             continue
@@ -287,7 +295,35 @@ def _with_all_about(wheel: Wheel, solids: tuple[Solid, ...], taken: set[int], to
         elif max(high, -low) <= WIDER * half and (reach := _reach_about(wheel, s)) is not None:
             members.add(s.index)
             radius = max(radius, reach)
+        elif max(high, -low) <= WIDER * half:
+            aside.setdefault(s.part.shape, []).append(s)
+    for equal in aside.values():
+        lugs, reach = _lugs(wheel, equal, [w for w in rings if not w.members & wheel.members])
+        members |= lugs
+        radius = max(radius, reach)
     return replace(wheel, members=frozenset(members), radius=radius)
+
+
+def _lugs(wheel: Wheel, equal: list[Solid], others: list[Wheel]) -> tuple[set[int], float]:
+    """Those of equal solids that are lugs of a wheel's tread: all round it, with no gap of a quarter, and nearer to it
+    than to the `others`; and how far they reach from its axis, metres."""
+    equal = [s for s in equal if _nearest(s.center, wheel, others)] if len(equal) >= LUGS else []
+    if len(equal) < LUGS:
+        return set(), 0.0
+    first = unit(np.cross(wheel.direction, np.eye(3)[int(np.argmin(np.abs(wheel.direction)))]))
+    plane = np.array([first, np.cross(wheel.direction, first)])
+    middles = np.array([s.center - wheel.center for s in equal]) @ plane.T
+    reach = np.array([np.linalg.norm((s.points - wheel.center) @ plane.T, axis=1).max() for s in equal])
+    out = (np.linalg.norm(middles, axis=1) > OUTER * wheel.radius) & (reach < TREAD * wheel.radius)
+    turn = np.sort(np.arctan2(middles[out, 1], middles[out, 0]))
+    if len(turn) < LUGS or np.diff(turn, append=turn[:1] + 2.0 * np.pi).max() > 0.5 * np.pi:
+        return set(), 0.0
+    return {s.index for s, lug in zip(equal, out, strict=True) if lug}, float(np.median(reach[out]))
+
+
+def _nearest(point: Floats, wheel: Wheel, others: list[Wheel]) -> bool:
+    own = float(np.linalg.norm(point - wheel.center))
+    return all(own < float(np.linalg.norm(point - w.center)) for w in others)
 
 
 def _reach_about(wheel: Wheel, solid: Solid) -> float | None:

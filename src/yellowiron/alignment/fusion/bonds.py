@@ -11,7 +11,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from yellowiron.alignment.assignment.directions import ALIKE, NOT_ACROSS
-from yellowiron.alignment.assignment.names import unnamed
+from yellowiron.alignment.assignment.names import own_words, unnamed
 from yellowiron.alignment.fusion.pieces import Piece
 from yellowiron.alignment.fusion.stance import Stance
 from yellowiron.alignment.structure.clusters import Structure
@@ -137,8 +137,9 @@ def _stems(observation: Observation, pieces: Sequence[Piece]) -> dict[tuple[int,
 
 
 def stem_of(name: str) -> str:
-    """A name without its numbers and signs."""
-    return re.sub(r"[\W\d_]+", "", name.casefold())
+    """A name by its words, whatever their order and spelling, without its numbers and what a modelling tool adds; one
+    that has nothing else as it is."""
+    return " ".join(own_words(name)) or re.sub(r"[\W\d_]+", "", name.casefold())
 
 
 def _together(groups: Iterable[set[int]], most: float) -> dict[tuple[int, int], float]:

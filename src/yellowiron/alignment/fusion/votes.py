@@ -28,7 +28,9 @@ BARS = ("barrel", "rod")
 BULKY = 0.02
 """A piece of more than this share of the machine's surface that is no bar is no half of a cylinder."""
 SIDEWAYS = 0.5
-"""A bar that lies across the machine is a pin or an axle, no hydraulic cylinder (cosine to the left)."""
+"""A bar that lies across the machine is a pin or an axle, no hydraulic cylinder (cosine to the left), …"""
+ROOM = 0.4
+"""… and hardly half of one that is usually no wider across than this share of its length."""
 FARTHEST = 25.0
 """No more than so many squared deviations of a point count."""
 MOST = 7.0
@@ -95,12 +97,15 @@ def votes_of(
             shape = shapes[kind, name > 0 or body in told]
             if shape is None:
                 continue
+            usual = template.usual.get(body, anywhere)
+            lies_across = piece.slender and kind in BARS and piece.kind not in BARS and _across(piece, stance)
+            if lies_across and not name and body not in told and usual is not None and not _has_room(usual):
+                shape = {"no bar": 1.0, "crosswise": 1.0}
             if meant and meant <= set(BARS) and kind not in BARS and not told:
                 # Its names speak of hydraulic cylinders alone, if not of which.
                 shape = {**shape, "unlike": max(worth * max(said.values()), shape.get("unlike", 0.0))}
             contact = max(contacts.get(body, 0.0), contacts.get(twins[body], 0.0))
             found = {"name": worth * name, "contacts": contact, "said": float(body in told), **shape}
-            usual = template.usual.get(body, anywhere)
             if usual is not None:
                 found |= _unusual(stance, piece, usual, stance.drawn * piece.area / total, depths[body])
             if kind == piece.kind == "wheel" and body in odd:
@@ -279,6 +284,16 @@ def _unusual(stance: Stance, piece: Piece, usual: Usual, share: float, depth: in
     return {"place": min(place, MOST), "longer": min(longer, MOST), "larger": min(larger, MOST)}
 
 
+def _across(piece: Piece, stance: Stance) -> bool:
+    """Whether a piece lies across the machine."""
+    return abs(float(piece.axes[0] @ stance.left)) >= SIDEWAYS
+
+
+def _has_room(usual: Usual) -> bool:
+    """Whether a body is ever wide enough across the machine to lie so."""
+    return usual.high[1] - usual.low[1] >= ROOM * usual.length
+
+
 def _shape(
     piece: Piece, kind: str, named_so: bool, total: float, largest: float, stance: Stance
 ) -> dict[str, float] | None:
@@ -291,7 +306,7 @@ def _shape(
     if kind in BARS:
         if piece.kind in BARS:
             return {"seen": 1.0} if piece.kind == kind else None
-        if piece.slender and abs(float(piece.axes[0] @ stance.left)) < SIDEWAYS:
+        if piece.slender and not _across(piece, stance):
             return {"bar": 1.0}
         return None if share > BULKY and not named_so else {"no bar": 1.0}
     if piece.kind in BARS:

@@ -8,6 +8,7 @@ from dataclasses import dataclass
 from yellowiron.alignment.features.distance import Touch
 from yellowiron.alignment.features.solids import Solid, size_of, solids_of
 from yellowiron.alignment.features.wheels import spare_wheels
+from yellowiron.alignment.labelling.confidence import REVIEW
 from yellowiron.alignment.labelling.place import DOUBTFUL, Place
 from yellowiron.alignment.tolerances import CONTACT
 from yellowiron.model.alignment import Vector
@@ -71,10 +72,13 @@ def further_wheels(
         body = member(row.name, number)
         turning[body] = wheel
         tyre = next((r for r in template.roles if r.many and r.parent == row.name), None)
+        words = f"a wheel as large as the others, of a further axle on {carrier}"
+        # Which side it is on, and of what, follows from the wheel beside it.
+        sure = min(SURE, found[wheel.beside].confidence) if wheel.beside in found else SURE
+        words = words if sure >= REVIEW else f"{words}; but the wheel beside it is in doubt itself"
         for part in wheel.parts:
             role = member(tyre.name, number) if tyre is not None and part in wheel.tyres else body
-            words = f"a wheel as large as the others, of a further axle on {carrier}"
-            places[part] = Place(role, body, SURE, words, how="ring")
+            places[part] = Place(role, body, sure, words, how="ring")
     hinges = {b: j.name for j in expand(template, numbers).joints for b in j.parts if b in turning}
     return FurtherAxles(
         places, {joint: (triple(turning[b].center), triple(turning[b].direction)) for b, joint in hinges.items()}
@@ -92,7 +96,7 @@ def axle_tubes(
     """Part's id → place, of what touches parts of further wheels and nothing else, and what nothing better than
     touching or nearness placed: their axle, of the frame that they turn on. `found`: the other parts' places."""
     where = {s.part.id: s.index for s in solids}
-    own = {where[part]: further.places[part].body for w in wheels for part in w.parts}
+    own = {where[part]: further.places[part] for w in wheels for part in w.parts}
     tubes: dict[str, Place] = {}
     for wheel in own:
         for i in touch.near(wheel):
@@ -102,12 +106,11 @@ def axle_tubes(
                 continue
             if any(j != i and j not in own and touch.touching(i, j) for j in touch.near(i)):
                 continue
-            body = own[wheel]
+            body = own[wheel].body
             carrier = template.body_of(str(template.role(body).parent)) if template.knows(body) else body
             frame = carrier if carrier is not None else template.root
-            tubes[part] = Place(
-                frame, frame, SURE, "it touches a further wheel, and nothing else: its axle", how="touch"
-            )
+            words = "it touches a further wheel, and nothing else: its axle"
+            tubes[part] = Place(frame, frame, own[wheel].confidence, words, how="touch")
     return tubes
 
 

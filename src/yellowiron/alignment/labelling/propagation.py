@@ -42,7 +42,7 @@ class Propagation:
     for (`loose`), and those that stand `apart`, with the metres to the rest.
 
     `scores`: what the names say of each solid; `up`: the upright, CAD frame; `rivals`: cluster → the body it could as
-    well be; `suspects`: body → why it is doubtful; `never`: solid → a body that it is not of, whatever it touches."""
+    well be; `suspects`, `doubts`: body, and solid → why it is doubtful; `never`: solid → a body that it is not of."""
 
     observation: Observation
     answer: Answer
@@ -51,6 +51,7 @@ class Propagation:
     rivals: Mapping[int, str | None] = field(default_factory=dict)
     suspects: Mapping[str, str] = field(default_factory=dict)
     never: Mapping[int, str] = field(default_factory=dict)
+    doubts: Mapping[int, str] = field(default_factory=dict)
 
     def __post_init__(self) -> None:
         self.solids, self.touch = self.observation.solids, self.observation.touch
@@ -111,7 +112,9 @@ class Propagation:
             for i in self.structure.clusters[c].members:
                 rival = self._named_other(i, body)
                 drop = 0.1 if rival else 0.0
-                self.places[i] = Place(body, body, confidence - drop, words, doubt or rival or other, lead=lead)
+                why = f"{words}; but {self.doubts[i]}" if i in self.doubts else words
+                sure = min(confidence - drop, DOUBTFUL if i in self.doubts else 1.0)
+                self.places[i] = Place(body, body, sure, why, doubt or rival or other, lead=lead)
 
     def _torn(self) -> None:
         """Parts that hold to two bodies about as firmly: the one chosen is a guess."""

@@ -10,7 +10,7 @@ from dataclasses import dataclass, replace
 
 import numpy as np
 
-from yellowiron.alignment.assignment.answer import Answer
+from yellowiron.alignment.assignment.answer import MOVING, Answer
 from yellowiron.alignment.assignment.cp_sat import TYPED, Solution
 from yellowiron.alignment.assignment.weights import AS_GOOD
 from yellowiron.alignment.features.solids import Solid
@@ -22,6 +22,9 @@ AROUND = 2
 """Parts of a body that was not found may be taken for bodies that are this many joints away."""
 PUNY = 0.02
 """A frame of less than this share of the largest body's surface is none, and its parts are elsewhere."""
+MEAGRE = 0.1
+"""What has less than this part of the surface that the body usually has is a piece of it, and the rest is elsewhere. Of
+126 frames, arms, links and tools of 23 models of strangers the logarithms deviate by 0.48: this is 4.8 of that."""
 SPEAKS = 0.4
 """Names that speak this well of missing bodies, and less of the part's own, leave it in doubt."""
 SQUARE = 0.1
@@ -71,7 +74,18 @@ def suspect_bodies(
         if body not in elsewhere:
             around = _within(body, joints.beside, steps=AROUND) - {body}
             words |= dict.fromkeys(sorted(around), f"{body} is not found: its parts may be among these")
+    whole = {j.name for j in template.joints if j.type in MOVING} <= {*solution.hinge_of, *solution.slide_of}
+    for body in sorted(meagre(template, surface or {}) - special) if not whole else ():
+        around = _within(body, joints.beside, steps=AROUND)
+        words |= dict.fromkeys(sorted(around), f"of {body} hardly anything is found: its parts may be among these")
     return words
+
+
+def meagre(template: Template, surface: Mapping[str, float]) -> set[str]:
+    """The bodies that have next to nothing of the surface which is usually theirs, among those that were found."""
+    usual = {b: template.usual[b].area for b in surface if b in template.usual and template.usual[b].area > 0.0}
+    whole, found = sum(usual.values()), sum(surface[b] for b in usual)
+    return {b for b, share in usual.items() if surface[b] * whole < MEAGRE * share * found}
 
 
 def _joints(solution: Solution, template: Template, kinds: Mapping[str, str], special: set[str]) -> _Joints:

@@ -2,16 +2,43 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterator
-
-import numpy as np
+from collections.abc import Collection, Iterator
+from dataclasses import replace
 
 from yellowiron.alignment.assignment.answer import Answer
+from yellowiron.alignment.structure.ground_cut import BELOW, WITHIN, heights, held_by
 from yellowiron.alignment.structure.observation import Observation, slewing_joints
 from yellowiron.model.geometry import Floats
 
-BELOW = 0.3
-"""Of the carrier's height: what it carries begins higher up on it."""
+
+def regrounded(observation: Observation, answer: Answer) -> tuple[Answer, dict[int, str]]:
+    """The answer with what reaches the ground on the body that carries; and solid → why it is, for what was moved.
+
+    Of a body that slews on another and reaches about as low, whatever hangs together with its low parts is the
+    carrier's, cut off where the least contact holds it to what is wholly above the carrier: a track's belt that runs
+    into the deck above it had made one of both."""
+    moved: dict[int, str] = {}
+    for carrier, carried, up in _slewing(observation, answer):
+        own, base = (_members(answer)[body] for body in (carried, carrier))
+        _, bottom, top = _heights(base, observation, up)
+        reach = {i: _heights({i}, observation, up) for i in own}
+        low = {i for i, (middle, _, _) in reach.items() if middle < bottom + WITHIN * (top - bottom)}
+        high = {i for i, (_, lowest, _) in reach.items() if lowest >= top}
+        if not high or min(lowest for _, lowest, _ in reach.values()) >= _limit(base, observation, up):
+            continue
+        fallen = held_by(low, high, own, observation.evidence[-1])
+        answer = _moved(answer, fallen, carried, carrier)
+        moved |= dict.fromkeys(sorted(fallen), f"it reaches the ground, and was drawn into {carried}")
+    return answer, moved
+
+
+def _moved(answer: Answer, solids: frozenset[int], giver: str, taker: str) -> Answer:
+    """The answer with some solids of one body as another's."""
+    clusters, number = list(answer.structure.clusters), {b: c for c, b in answer.solution.body_of.items()}
+    one, other = number[giver], number[taker]
+    clusters[one] = replace(clusters[one], members=clusters[one].members - solids)
+    clusters[other] = replace(clusters[other], members=clusters[other].members | solids)
+    return replace(answer, structure=replace(answer.structure, clusters=tuple(clusters)))
 
 
 def undercut(observation: Observation, answer: Answer) -> tuple[str, ...]:
@@ -60,10 +87,5 @@ def _limit(carrier: frozenset[int], observation: Observation, up: Floats) -> flo
     return low + BELOW * (high - low)
 
 
-def _heights(members: frozenset[int], observation: Observation, up: Floats) -> tuple[float, float, float]:
-    """How high some solids are on the whole, by their surfaces, at their lowest and at their highest."""
-    solids = [observation.solids[i] for i in sorted(members)]
-    runs = [solid.points @ up for solid in solids]
-    weights = np.array([solid.surface for solid in solids]) + 1e-12
-    middle = float(np.average([run.mean() for run in runs], weights=weights))
-    return middle, min(float(run.min()) for run in runs), max(float(run.max()) for run in runs)
+def _heights(members: Collection[int], observation: Observation, up: Floats) -> tuple[float, float, float]:
+    return heights([observation.solids[i] for i in sorted(members)], up)

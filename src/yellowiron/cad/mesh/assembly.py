@@ -18,6 +18,8 @@ from yellowiron.model.finding import Finding
 from yellowiron.model.geometry import Color, Finish, Floats, Mesh, Shape
 
 _AGAIN = "Export the file again."
+FARTHER = 100.0
+"""A part that reaches so many times as far as most parts is damaged."""
 
 
 @dataclass(frozen=True, eq=False)
@@ -66,8 +68,11 @@ def assemble(
             empty.append("/".join((*item.path, item.name)))
         else:
             drawn.append((item, shape))
-    # One part far away is damaged; where most are, the unit is another one, which the machine will tell.
-    most = LARGEST if sum(_reach(s, i.transform) > LARGEST for i, s in drawn) <= 0.5 * len(drawn) else LARGEST / FINEST
+    # What is far beyond most others is damaged; where more than half are far, the unit is another one, which the
+    # machine will tell.
+    reached = sorted(_reach(s, i.transform) for i, s in drawn)
+    usual = reached[(len(reached) - 1) // 2] if reached else 0.0
+    most = min(max(LARGEST, FARTHER * usual), LARGEST / FINEST)
     for item, shape in drawn:
         fault = _misplaced(shape, item.transform, most)
         if fault:
