@@ -13,8 +13,8 @@ import numpy as np
 from yellowiron.alignment.assignment.answer import MOVING, Answer
 from yellowiron.alignment.assignment.cp_sat import TYPED, Solution
 from yellowiron.alignment.assignment.machine_frame import MachineFrame
+from yellowiron.alignment.assignment.sides import END
 from yellowiron.alignment.assignment.weights import AS_GOOD
-from yellowiron.alignment.axes.hinges import END
 from yellowiron.alignment.features.solids import Solid
 from yellowiron.alignment.features.wheels import FLAT, TREAD, Wheel
 from yellowiron.alignment.labelling.place import DOUBTFUL, Place
