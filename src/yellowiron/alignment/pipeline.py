@@ -64,7 +64,13 @@ from yellowiron.alignment.labelling.propagation import Propagation
 from yellowiron.alignment.labelling.rams import with_rams
 from yellowiron.alignment.labelling.result import Labels, to_alignment
 from yellowiron.alignment.labelling.review import name_findings, review_findings
-from yellowiron.alignment.labelling.suspects import maybe_unplayed, meagre, otherwise, suspect_bodies
+from yellowiron.alignment.labelling.suspects import (
+    crossed_ends,
+    maybe_unplayed,
+    meagre,
+    otherwise,
+    suspect_bodies,
+)
 from yellowiron.alignment.labelling.track_places import (
     no_surer_than_frames,
     on_tracks,
@@ -166,6 +172,8 @@ def align(
     share = drawn_share(answer, observation.solids)
     # A body of which hardly anything is found lies in another's, welded to it: its joints were found beside it.
     torn = not is_whole(answer) and bool(meagre(answer.template, _surfaces(observation, answer)))
+    framed = _framed(answer, observation, tracks, facing)
+    torn = torn or (framed[1] is not None and bool(crossed_ends(observation, framed[0], framed[1])))
     held = held and not torn
     explained = held or (share >= EXPLAINED and not torn)
     contradicted = agreement < BELIEVED and not is_whole(answer)
@@ -185,7 +193,7 @@ def align(
         answer, frame, agreement = judged.answer, judged.frame, judged.trust
         observation, scores = wide, named
     else:
-        answer, frame = _framed(answer, observation, tracks, facing)
+        answer, frame = framed
         named = name_scores(tuple(s.part for s in observation.solids), plain, template)
     rivals = {} if is_whole(answer) or answer.judged is not None else rivals_of(answer)
     added: frozenset[str] = frozenset()
@@ -208,6 +216,7 @@ def align(
         if answer.judged is not None
         else {
             **suspect_bodies(answer.solution, answer.template, _surfaces(observation, answer)),
+            **(crossed_ends(observation, answer, frame) if frame is not None else {}),
             **dict.fromkeys(low, "what is carried reaches as low as its carrier: parts of one are the other's"),
             **(dict.fromkeys(answer.solution.body_of.values(), LEFT_OVER) if strained else {}),
             **dict.fromkeys(sorted(added), WORDS),

@@ -12,10 +12,13 @@ import numpy as np
 
 from yellowiron.alignment.assignment.answer import MOVING, Answer
 from yellowiron.alignment.assignment.cp_sat import TYPED, Solution
+from yellowiron.alignment.assignment.machine_frame import MachineFrame
+from yellowiron.alignment.assignment.sides import END
 from yellowiron.alignment.assignment.weights import AS_GOOD
 from yellowiron.alignment.features.solids import Solid
 from yellowiron.alignment.features.wheels import FLAT, TREAD, Wheel
 from yellowiron.alignment.labelling.place import DOUBTFUL, Place
+from yellowiron.alignment.structure.observation import Observation
 from yellowiron.model.template import Template
 
 AROUND = 2
@@ -37,6 +40,8 @@ MARGIN = 0.05
 """What reaches out of an outline by no more than this share of its size is within it."""
 TURNS = 12
 """In so many directions an outline is looked at."""
+CROSSED = 0.1
+"""What is called the front is behind what is called the rear if it is so by this share of the machine's size."""
 HALF = 0.5
 """Of a frame's usual share of the surface: what has as much may be it."""
 
@@ -86,6 +91,21 @@ def meagre(template: Template, surface: Mapping[str, float]) -> set[str]:
     usual = {b: template.usual[b].area for b in surface if b in template.usual and template.usual[b].area > 0.0}
     whole, found = sum(usual.values()), sum(surface[b] for b in usual)
     return {b for b, share in usual.items() if surface[b] * whole < MEAGRE * share * found}
+
+
+def crossed_ends(observation: Observation, answer: Answer, frame: MachineFrame) -> dict[str, str]:
+    """Body → why it is doubtful, of the bodies of a machine's front and rear (and its root, which they hang on) where
+    those of the front lie behind those of the rear: the arms, which are ahead, say otherwise."""
+    solids, ends = observation.solids, dict[str, list[float]]()
+    for c, body in sorted(answer.solution.body_of.items()):
+        for end in set(END.findall(body)) & {"front", "rear"}:
+            for i in sorted(answer.structure.clusters[c].members):
+                middle = 0.5 * (solids[i].low + solids[i].high)
+                ends.setdefault(end, []).append(float(frame.matrix[0, :3] @ middle))
+    if len(ends) < 2 or np.mean(ends["front"]) > np.mean(ends["rear"]) - CROSSED * observation.size:
+        return {}
+    named = [b for b in answer.solution.body_of.values() if END.search(b)]
+    return dict.fromkeys(sorted({*named, answer.template.root}), "the arms say that its front and rear are exchanged")
 
 
 def _joints(solution: Solution, template: Template, kinds: Mapping[str, str], special: set[str]) -> _Joints:
