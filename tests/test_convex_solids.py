@@ -5,7 +5,7 @@ from __future__ import annotations
 import numpy as np
 import pytest
 import trimesh
-from hypothesis import given, settings
+from hypothesis import example, given, settings
 from hypothesis import strategies as st
 from scipy.spatial.transform import Rotation
 
@@ -79,6 +79,7 @@ def test_no_hull_is_too_thin_or_too_oblong_to_be_cooked(
     st.sampled_from((0.01, 0.2, 5.0)),
     st.sampled_from((0.0, 1e-12, 6e-12, 1e-9, 1e-7, 1e-5)),
 )
+@example(9, 9, 1, 0.01, 1e-12)
 @settings(max_examples=150, deadline=None)
 def test_what_is_flat_a_line_or_a_point_gets_a_hull(
     seed: int, count: int, dimensions: int, size: float, rough: float

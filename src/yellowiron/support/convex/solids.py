@@ -25,6 +25,8 @@ _SPACING = 2.0
 """Points by which a surface is judged are this many tolerances apart at most …"""
 _FINEST = 0.02
 """… and no less than this, metres."""
+_SLIVER = 1e-9
+"""Metres: what is no higher than this has no direction."""
 _ROUGH = 1.0
 """Metres apart: no more than a triangle's middle, but where it is large."""
 _MOST = 12
@@ -132,7 +134,11 @@ def _of_hull(mesh: Mesh) -> Convex:
     a, b, c = (mesh.points[mesh.triangles[:, k]] for k in range(3))
     normals = _cross(b - a, c - a)
     length = np.linalg.norm(normals, axis=1)
-    sound = length > 1e-12 * max(float(length.max(initial=0.0)), 1e-300)
+    # How high each triangle is over its longest edge: a sliver's normal is that of its rounding, and what is beside it
+    # bounds the solid as well.
+    edges = np.max([np.linalg.norm(p - q, axis=1) for p, q in ((a, b), (b, c), (c, a))], axis=0)
+    height = length / np.maximum(edges, 1e-300)
+    sound = height > min(_SLIVER, 1e-3 * float(height.max(initial=0.0)))
     normals = normals[sound] / length[sound, None]
     offsets = -np.einsum("ij,ij->i", normals, a[sound])
     planes = np.unique(np.column_stack([normals, offsets]).round(9), axis=0)
