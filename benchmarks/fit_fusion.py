@@ -40,7 +40,7 @@ ROOT = Path(__file__).resolve().parent.parent
 sys.path[:0] = [str(ROOT / "src"), str(ROOT / "tests"), str(ROOT / "benchmarks")]
 
 from bench_strangers import FOLDERS, LABELS  # noqa: E402
-from kit.machines.damages import DAMAGES  # noqa: E402
+from kit.machines.damages import DAMAGES, KINDS  # noqa: E402
 from kit.scene import Scene, scene  # noqa: E402
 from strangers_models import Model, models, scene_of, upright_of  # noqa: E402
 from strangers_shaken import shaken  # noqa: E402
@@ -336,7 +336,7 @@ def _scenes(given: argparse.Namespace) -> Iterator[tuple[str, Callable[[], Scene
                         yield told, partial(_real, model, names, shake)
         return
     for damage in given.damages.split(","):
-        for kind in DAMAGES[damage].kinds:
+        for kind in (k for k in DAMAGES[damage].kinds if k in KINDS):
             for seed in range(given.first, given.first + given.count):
                 names = ("with", "without")[zlib.crc32(f"{damage}{kind}{seed}".encode()) % 2]
                 yield f"{kind}-{seed}-{damage}-{names}", partial(scene, kind, seed, damage, names=names)

@@ -170,7 +170,8 @@ def align(
     agreement = search.agreement
     held = held_share(answer) >= (HELD_TOLD if edited else HELD) and shows_what_is_special(answer, plain)
     share = drawn_share(answer, observation.solids)
-    # A body of which hardly anything is found lies in another's, welded to it: its joints were found beside it.
+    # A body of which hardly anything is found lies in another's, welded to it; of a machine that faces otherwise than
+    # its ends lie, one end was welded to the root.
     torn = not is_whole(answer) and bool(meagre(answer.template, _surfaces(observation, answer)))
     framed = _framed(answer, observation, tracks, facing)
     torn = torn or (framed[1] is not None and bool(crossed_ends(observation, framed[0], framed[1])))

@@ -95,7 +95,7 @@ def meagre(template: Template, surface: Mapping[str, float]) -> set[str]:
 
 def crossed_ends(observation: Observation, answer: Answer, frame: MachineFrame) -> dict[str, str]:
     """Body → why it is doubtful, of the bodies of a machine's front and rear (and its root, which they hang on) where
-    those of the front lie behind those of the rear: the arms, which are ahead, say otherwise."""
+    those of the front lie behind those of the rear, as the machine faces by its arms or a person's word."""
     solids, ends = observation.solids, dict[str, list[float]]()
     for c, body in sorted(answer.solution.body_of.items()):
         for end in set(END.findall(body)) & {"front", "rear"}:
@@ -105,7 +105,9 @@ def crossed_ends(observation: Observation, answer: Answer, frame: MachineFrame) 
     if len(ends) < 2 or np.mean(ends["front"]) > np.mean(ends["rear"]) - CROSSED * observation.size:
         return {}
     named = [b for b in answer.solution.body_of.values() if END.search(b)]
-    return dict.fromkeys(sorted({*named, answer.template.root}), "the arms say that its front and rear are exchanged")
+    return dict.fromkeys(
+        sorted({*named, answer.template.root}), "its front and rear lie the other way round than it faces"
+    )
 
 
 def _joints(solution: Solution, template: Template, kinds: Mapping[str, str], special: set[str]) -> _Joints:

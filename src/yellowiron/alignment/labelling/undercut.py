@@ -6,7 +6,8 @@ from collections.abc import Collection, Iterator
 from dataclasses import replace
 
 from yellowiron.alignment.assignment.answer import Answer
-from yellowiron.alignment.structure.ground_cut import BELOW, WITHIN, heights, held_by
+from yellowiron.alignment.structure.ground_cut import BELOW, heights, layers
+from yellowiron.alignment.structure.min_cut import held_by
 from yellowiron.alignment.structure.observation import Observation, slewing_joints
 from yellowiron.model.geometry import Floats
 
@@ -20,11 +21,9 @@ def regrounded(observation: Observation, answer: Answer) -> tuple[Answer, dict[i
     moved: dict[int, str] = {}
     for carrier, carried, up in _slewing(observation, answer):
         own, base = (_members(answer)[body] for body in (carried, carrier))
-        _, bottom, top = _heights(base, observation, up)
-        reach = {i: _heights({i}, observation, up) for i in own}
-        low = {i for i, (middle, _, _) in reach.items() if middle < bottom + WITHIN * (top - bottom)}
-        high = {i for i, (_, lowest, _) in reach.items() if lowest >= top}
-        if not high or min(lowest for _, lowest, _ in reach.values()) >= _limit(base, observation, up):
+        solids = observation.solids
+        low, high = layers([solids[i] for i in sorted(own)], [solids[i] for i in sorted(base)], up)
+        if not high or _heights(own, observation, up)[1] >= _limit(base, observation, up):
             continue
         fallen = held_by(low, high, own, observation.evidence[-1])
         answer = _moved(answer, fallen, carried, carrier)

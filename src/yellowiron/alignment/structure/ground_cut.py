@@ -7,15 +7,13 @@ them, but for what hangs on an arm. Where both are held together by contacts, th
 
 from __future__ import annotations
 
-from collections.abc import Collection, Sequence
+from collections.abc import Sequence
 from dataclasses import replace
 
-import networkx
 import numpy as np
 
 from yellowiron.alignment.features.solids import Solid
-from yellowiron.alignment.structure.contact_evidence import ContactEvidence
-from yellowiron.alignment.structure.min_cut import strength
+from yellowiron.alignment.structure.min_cut import held_by
 from yellowiron.alignment.structure.observation import Observation, slewing_joints
 from yellowiron.model.geometry import Floats
 from yellowiron.model.template import Template
@@ -24,8 +22,6 @@ BELOW = 0.3
 """Of the carrier's height: what it carries begins higher up on it, …"""
 WITHIN = 0.75
 """… and what is lower than this, on the whole, is the carrier's where anything of it reaches so far down."""
-TIE = 1e-6
-"""Square metres: two solids that touch in a point hold each other a little."""
 
 
 def parted(observation: Observation, template: Template) -> Observation:
@@ -35,17 +31,10 @@ def parted(observation: Observation, template: Template) -> Observation:
     if not rows or observation.up is None or not slewing_joints(template) or not evidence or evidence[-1].races:
         return observation
     up = upwards(observation)
-    _, bottom, top = heights(rows, up)
-    reach = {s.index: heights([s], up) for s in observation.solids}
-    between = _between(rows, up)
-    low = {
-        s.index
-        for s in observation.solids
-        if reach[s.index][0] < bottom + WITHIN * (top - bottom) and _inside(s, between, up)
-    }
-    high = {i for i, (_, lowest, _) in reach.items() if lowest >= top}
-    usual = evidence[-1]
-    fallen = held_by(low, high, reach.keys(), usual)
+    low, high = layers(observation.solids, rows, up)
+    between, usual = _between(rows, up), evidence[-1]
+    low = {i for i in low if _inside(observation.solids[i], between, up)}
+    fallen = held_by(low, high, range(len(observation.solids)), usual)
     if not fallen:
         return observation
 
@@ -60,24 +49,13 @@ def parted(observation: Observation, template: Template) -> Observation:
     return replace(observation, evidence=(apart,))
 
 
-def held_by(
-    low: Collection[int], high: Collection[int], members: Collection[int], evidence: ContactEvidence
-) -> frozenset[int]:
-    """Of `members` those on the `low` ones' side of the weakest contacts between these and the `high`; none where
-    either of the two is empty. Pins hold nothing, nor does what may turn about a common axis."""
-    graph = networkx.Graph()
-    graph.add_nodes_from(members)
-    flat = {(min(f.a, f.b), max(f.a, f.b)) for f in evidence.welds}
-    pins, about = evidence.fasteners, evidence.about
-    touching = {p for p in evidence.near if not {*p} & pins and not about[p[0]] & about[p[1]] and evidence.touching(*p)}
-    for a, b in sorted(flat | touching):
-        if a in graph and b in graph:
-            graph.add_edge(a, b, capacity=max(TIE, strength(evidence, a, b)))
-    if not low or not high:
-        return frozenset()
-    for name, side in (("ground", low), ("deck", high)):
-        graph.add_edges_from((name, i) for i in side)
-    return frozenset(networkx.minimum_cut(graph, "ground", "deck")[1][0]) - {"ground"}
+def layers(solids: Sequence[Solid], base: Sequence[Solid], up: Floats) -> tuple[set[int], set[int]]:
+    """Of some solids those that are low beside what carries the machine (`base`), on the whole, and those that are
+    wholly above it."""
+    _, bottom, top = heights(base, up)
+    reach = {s.index: heights([s], up) for s in solids}
+    low = {i for i, (middle, _, _) in reach.items() if middle < bottom + WITHIN * (top - bottom)}
+    return low, {i for i, (_, lowest, _) in reach.items() if lowest >= top}
 
 
 def upwards(observation: Observation) -> Floats:

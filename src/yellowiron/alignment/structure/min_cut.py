@@ -1,8 +1,10 @@
-"""Finding the false weld: the weakest set of contacts that ties together what a pin says must turn."""
+"""Finding the false weld: the weakest set of contacts that ties together what a pin says must turn, or what is low and
+what is high on a machine."""
 
 from __future__ import annotations
 
 from collections import deque
+from collections.abc import Collection, Sequence
 
 import numpy as np
 from scipy.sparse import csr_array
@@ -58,19 +60,43 @@ def false_welds(groups: Groups, evidence: ContactEvidence, pairs: Pairs, refused
     return result
 
 
-def _graph(evidence: ContactEvidence, pairs: Pairs) -> csr_array:
-    """Capacities between solids, both ways."""
+def held_by(
+    low: Collection[int], high: Collection[int], members: Collection[int], evidence: ContactEvidence
+) -> frozenset[int]:
+    """Of the solids `members` those on the `low` ones' side of the weakest contacts between these and the `high`; none
+    where either of the two is empty. Pins hold nothing, nor does what may turn about a common axis."""
+    if not low or not high:
+        return frozenset()
+    flat = {(min(f.a, f.b), max(f.a, f.b)) for f in evidence.welds}
+    pins, about = evidence.fasteners, evidence.about
+    touching = {p for p in evidence.near if not {*p} & pins and not about[p[0]] & about[p[1]] and evidence.touching(*p)}
+    inside = set(members)
+    start = len(evidence.solids)
+    pairs = [p for p in sorted(flat | touching) if inside.issuperset(p)]
+    ends = [*((i, start) for i in sorted(low)), *((i, start + 1) for i in sorted(high))]
+    reached = _reached(_graph(evidence, pairs, ends), start, start + 1)
+    return frozenset(reached & inside)
+
+
+def _graph(evidence: ContactEvidence, pairs: Pairs, ends: Sequence[tuple[int, int]] = ()) -> csr_array:
+    """Capacities between solids, both ways; `ends`: a solid and a node behind the solids that it is one with."""
     capacity = {p: max(1, min(FIRM, round(SCALE * strength(evidence, *p)))) for p in pairs}
-    capacity |= {(min(p), max(p)): FIRM for p in evidence.pressed}
+    capacity |= dict.fromkeys([*((min(p), max(p)) for p in evidence.pressed), *ends], FIRM)
     rows = [a for a, _ in capacity] + [b for _, b in capacity]
     columns = [b for _, b in capacity] + [a for a, _ in capacity]
     values = np.array([*capacity.values(), *capacity.values()], dtype=np.int32)
-    count = len(evidence.solids)
+    count = len(evidence.solids) + (2 if ends else 0)
     return csr_array((values, (rows, columns)), shape=(count, count))
 
 
 def _cut(graph: csr_array, pairs: Pairs, start: int, end: int) -> set[tuple[int, int]]:
     """The minimum cut between two solids over the contacts that weld."""
+    reached = _reached(graph, start, end)
+    return set() if end in reached else {(a, b) for a, b in pairs if (a in reached) != (b in reached)}
+
+
+def _reached(graph: csr_array, start: int, end: int) -> set[int]:
+    """The nodes on the start's side of the minimum cut."""
     residual = csr_array(graph - maximum_flow(graph, start, end).flow)
     reached = {start}
     queue = deque([start])
@@ -81,4 +107,4 @@ def _cut(graph: csr_array, pairs: Pairs, start: int, end: int) -> set[tuple[int,
             if residual.data[at] > 0 and other not in reached:
                 reached.add(other)
                 queue.append(other)
-    return set() if end in reached else {(a, b) for a, b in pairs if (a in reached) != (b in reached)}
+    return reached
