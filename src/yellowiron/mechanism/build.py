@@ -18,7 +18,7 @@ from yellowiron.mechanism.actuation.direct_drives import (
     without_cylinders,
 )
 from yellowiron.mechanism.actuation.proportion import proportion_of
-from yellowiron.mechanism.actuation.usual_hinges import hinges_driven_directly
+from yellowiron.mechanism.actuation.usual_hinges import hinges_driven_directly, with_senses
 from yellowiron.mechanism.actuation.winches import winch_drives, winch_falls, winch_limits, with_winches
 from yellowiron.mechanism.bodies import body, mass
 from yellowiron.mechanism.bodies.choice import Choice
@@ -148,6 +148,7 @@ def build_mechanism(
     joints = hinges_driven_directly(
         template, joints, direct, lambda b: placement.points_of(placement.rows_of_body(b)), proportion, bodies
     )
+    actuators = with_senses(template, actuators, joints, direct)
     joints = with_followers(joints, template, frames, findings)
     joints = _with_idle_held(joints, tree, findings)
 

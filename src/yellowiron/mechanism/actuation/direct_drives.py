@@ -14,7 +14,14 @@ from yellowiron.mechanism.joints.frames import JointFrame
 from yellowiron.mechanism.placement import Placement
 from yellowiron.model.finding import Finding
 from yellowiron.model.mechanism import PROVISIONAL, STATED, Drive
-from yellowiron.model.template import ActuatorTemplate, CylinderTemplate, Follows, JointTemplate, Template
+from yellowiron.model.template import (
+    COMMON_HINGE,
+    ActuatorTemplate,
+    CylinderTemplate,
+    Follows,
+    JointTemplate,
+    Template,
+)
 from yellowiron.support.graphs import bridges
 
 _PINS = "Check the pins of their linkage (in the studio, or by 'joints' in the alignment)."
@@ -47,12 +54,13 @@ def out_of_reach(template: Template, frames: Mapping[str, JointFrame], placement
     as a link between was not found, or both pivots were found in one place."""
     bodies = {name: frame.bodies for name, frame in frames.items()}
     size = _size_in(placement)
-    loose = bridges(bodies)
+    loose, claimed = bridges(bodies), {name for actuator in template.actuators for name in actuator.joints}
     found: dict[str, str] = {}
     for actuator in (a for a in template.actuators if a.cylinders):
         whole = [c for c in actuator.cylinders if c.pins and {*c.joints} <= frames.keys()]
-        hinge = hinge_of(template, actuator, bodies, size) if whole else None
-        if hinge in loose:
+        hinge = hinge_of(template, actuator, bodies, size, claimed)
+        claimed |= {hinge} if hinge is not None else set()
+        if whole and hinge in loose:
             found |= dict.fromkeys((c.slide for c in whole), f"nothing that joins them to '{bodies[hinge][1]}'")
         for cylinder in whole:
             apart = pivot_distance(*(frames[name] for name in cylinder.pins))
@@ -90,7 +98,7 @@ def with_direct_hinges(
         wrong = {c.slide: standing[c.slide] for c in actuator.cylinders if c.slide in standing}
         whole = any({*c.joints} <= frames.keys() for c in actuator.cylinders)
         if hinge is not None and not whole:
-            usual = actuator.name in template.hinges
+            usual = not template.hinges.get(actuator.name, COMMON_HINGE).common
             findings.append(_told(actuator.name, hinge, next(iter(wrong.values()), None), usual=usual))
             direct[hinge] = actuator.name
             actuator = replace(actuator, kind="motor", cylinders=(), joints=(hinge,))

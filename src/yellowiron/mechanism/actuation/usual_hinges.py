@@ -16,17 +16,14 @@ import numpy as np
 
 from yellowiron.mechanism.actuation.proportion import Proportion
 from yellowiron.model.geometry import Floats
-from yellowiron.model.mechanism import ESTIMATE, GRAVITY, Body, Joint, Vector
-from yellowiron.model.template import Template, UsualHinge
+from yellowiron.model.mechanism import ESTIMATE, GRAVITY, Actuator, ActuatorJoint, Body, Joint, Vector
+from yellowiron.model.template import COMMON_HINGE, Template, UsualHinge
 
 FORWARD, LEFT = np.array([1.0, 0.0, 0.0]), np.array([0.0, 1.0, 0.0])
 _LEVER = 0.1
 """Of a body's size: its middle is farther than this from its hinge where that shows how it is turned."""
 _MISREAD = math.radians(60.0)
 """An angle that is so far out of the usual range is no machine's."""
-COMMON = UsualHinge(math.radians(-45.0), math.radians(45.0), math.radians(40.0), 0.1, from_drawn=True)
-"""How a hinge moves of which its type says nothing: over the library's median turn and at its median speed, with its
-median torque and half as much again."""
 CARRIES = 1.5
 """Times what hangs on a hinge, stretched out: what it is driven with at least. Cylinders lift a load besides."""
 _ALIKE = 0.9
@@ -165,10 +162,26 @@ def hinges_driven_directly(
     made = []
     for joint in joints:
         if joint.name in direct and joint.name in turned and joint.drive is not None:
-            usual = template.hinges.get(direct[joint.name], COMMON)
+            usual = template.hinges.get(direct[joint.name], COMMON_HINGE)
             drawn = None if usual.from_drawn else angle_of(joint.name, turned, points_of)
             carried = carried_moment(joint, joints, by_name)
-            whose = kind if usual is not COMMON else "machines"
+            whose = "machines" if usual.common else kind
             joint = with_usual(joint, usual, drawn, proportion, whose, carried=carried)
         made.append(joint)
     return tuple(made)
+
+
+def with_senses(
+    template: Template, actuators: Sequence[Actuator], joints: Sequence[Joint], direct: Mapping[str, str]
+) -> tuple[Actuator, ...]:
+    """The actuators, those whose hinges are driven in the place of their cylinders (`direct`) moving them the way that
+    the cylinders would: positive raises a boom."""
+    axes = {j.name: np.asarray(j.axis) for j in joints}
+
+    def turned(each: ActuatorJoint) -> ActuatorJoint:
+        if each.joint not in direct:
+            return each
+        usual = template.hinges.get(direct[each.joint], COMMON_HINGE)
+        return replace(each, sign=usual.sense * int(sense(axes[each.joint])))
+
+    return tuple(replace(a, joints=tuple(turned(each) for each in a.joints)) for a in actuators)
