@@ -12,7 +12,7 @@ from yellowiron.model.template import choose
 
 @pytest.mark.parametrize("name", ["BoomSection4", "boom_2", "Mast 03", "boom.5"])
 def test_what_is_numbered_is_one_of_several(name: str) -> None:
-    """"BoomSection4", the only one left of four, was the boom without a word: 4.6 % of a crane."""
+    """ "BoomSection4", the only one left of four, was the boom without a word: 4.6 % of a crane."""
     assert _NUMBERED.search(name)
 
 
