@@ -11,7 +11,8 @@ from __future__ import annotations
 
 import json
 import sys
-from collections.abc import Iterator
+from collections.abc import Iterator, Sequence
+from dataclasses import dataclass
 from pathlib import Path
 
 import numpy as np
@@ -37,9 +38,20 @@ LEAST = np.radians(2.0)
 """A hinge that turns less is not what the cylinders are for."""
 
 
-def measured(mechanism: Mechanism) -> Iterator[tuple[str, tuple[float, float, float, float], bool]]:
-    """Actuator, then the least and the largest angle of its hinge (degrees), its speed (degrees/s) and its torque
-    (times weight and length), then whether it steers a wheel: its angles are from the drawn pose."""
+@dataclass(frozen=True)
+class Row:
+    """An actuator, which way its hinge turns (±1), whether it steers a wheel (its angles are from the drawn pose), and
+    the least and the largest angle (degrees), the speed (degrees/s) and the torque (times weight and length); None
+    where those say nothing."""
+
+    actuator: str
+    sense: int
+    steers: bool
+    usual: tuple[float, float, float, float] | None
+
+
+def measured(mechanism: Mechanism) -> Iterator[Row]:
+    """The rows of a machine's actuators with cylinders."""
     template = load_template(mechanism.equipment_type)
     chain = ClosedChain(mechanism)
     hulls = {body.name: np.asarray(body.hull) for body in mechanism.bodies}
@@ -47,11 +59,14 @@ def measured(mechanism: Mechanism) -> Iterator[tuple[str, tuple[float, float, fl
     every = np.concatenate([hull for hull in hulls.values() if len(hull)])
     scale = GRAVITY * sum(body.mass for body in mechanism.bodies) * float(np.linalg.norm(np.ptp(every, axis=0)))
     bodies = {j.name: (j.body0, j.body1) for j in mechanism.joints if j.type == "revolute"}
-    for actuator in mechanism.actuators:
-        entry = next((a for a in template.actuators if a.name == actuator.name and a.cylinders), None)
-        if entry is None or not actuator.cylinders:
+    moved = {actuator.name: actuator for actuator in mechanism.actuators}
+    claimed: set[str | None] = set()
+    for entry in (a for a in template.actuators if a.cylinders and a.name in moved):
+        actuator = moved[entry.name]
+        hinge = hinge_of(template, entry, bodies, lambda b: float(np.linalg.norm(np.ptp(hulls[b], axis=0))), claimed)
+        claimed.add(hinge)
+        if not actuator.cylinders:
             continue
-        hinge = hinge_of(template, entry, bodies, lambda b: float(np.linalg.norm(np.ptp(hulls[b], axis=0))))
         slide = mechanism.joint(actuator.joints[0].joint)
         if hinge not in tree or slide.lower is None or slide.upper is None or slide.drive is None:
             continue
@@ -65,7 +80,11 @@ def measured(mechanism: Mechanism) -> Iterator[tuple[str, tuple[float, float, fl
         turn = turn * sense(tree[hinge].axis) * (1.0 if joint.body1 == tree[hinge].after else -1.0)
         steers = _steers(mechanism, tree[hinge])
         drawn = 0.0 if steers else angle_of(hinge, tree, hulls.__getitem__)
-        if np.ptp(turn) < LEAST or drawn is None:
+        if np.ptp(turn) < LEAST:
+            continue
+        positive = int(np.sign(turn[-1] - turn[0])) * actuator.joints[0].sign
+        if drawn is None:
+            yield Row(actuator.name, positive, steers, None)
             continue
         turn += drawn - np.interp(0.0, way, turn)
         rates = np.abs(np.gradient(turn, way))
@@ -73,11 +92,13 @@ def measured(mechanism: Mechanism) -> Iterator[tuple[str, tuple[float, float, fl
         seconds = max(0.5 * np.ptp(way) * (1.0 / back + 1.0 / out), FASTEST)
         torque = slide.drive.strongest / float(np.median(rates)) / scale
         if torque > STRONGEST:
+            yield Row(actuator.name, positive, steers, None)
             continue
         # The outer wheel of a turn goes less far than the inner one: two that turn alike go as far as their mean.
         half = 0.5 * float(np.ptp(turn))
         low, high = np.degrees([-half, half] if steers else [turn.min(), turn.max()])
-        yield actuator.name, (low, high, float(np.degrees(np.ptp(turn)) / seconds), torque), steers
+        speed = float(np.degrees(np.ptp(turn)) / seconds)
+        yield Row(actuator.name, positive, steers, (low, high, speed, torque))
 
 
 def _steers(mechanism: Mechanism, hinge: Turned) -> bool:
@@ -104,25 +125,29 @@ def hinges(mechanism: Mechanism) -> dict[str, Turned]:
 
 
 def main() -> None:
-    found: dict[str, dict[str, list[tuple[float, float, float, float]]]] = {}
-    steering: dict[str, set[str]] = {}
+    found: dict[str, dict[str, list[Row]]] = {}
     for file in sys.argv[1:]:
         mechanism = read_mechanism(file)
-        for name, row, steers in measured(mechanism):
-            if steers:
-                steering.setdefault(mechanism.equipment_type, set()).add(name)
-            found.setdefault(mechanism.equipment_type, {}).setdefault(name, []).append(row)
-            sys.stdout.write(f"{mechanism.name} {name}: {' '.join(f'{x:.3g}' for x in row)}\n")
+        for row in measured(mechanism):
+            found.setdefault(mechanism.equipment_type, {}).setdefault(row.actuator, []).append(row)
+            sys.stdout.write(f"{mechanism.name} {row}\n")
     for kind, rows in found.items():
-        table = {}
-        for name, own in rows.items():
-            low, high, speed, torque = np.mean(own, axis=0).tolist()
-            counted = {"from": "drawn"} if name in steering.get(kind, ()) else {}
-            table[name] = {"low": round(low), "high": round(high), **counted, "speed": float(f"{speed:.2g}"),
-                           "torque": float(f"{torque:.2g}")}  # fmt: skip
+        table = {name: entry for name, own in rows.items() if (entry := _entry(own))}
         path = ROOT / "src/yellowiron/library/data" / kind / "hinges.json"
         lines = ",\n".join(f'  "{name}": {json.dumps(row)}' for name, row in table.items())
         path.write_text("{\n" + lines + "\n}\n", encoding="utf-8")
+
+
+def _entry(rows: Sequence[Row]) -> dict[str, object]:
+    """What the document says of an actuator; nothing where its hinge moves as any might."""
+    sense = {"sense": -1} if sum(row.sense for row in rows) < 0 else {}
+    usual = [row.usual for row in rows if row.usual is not None]
+    if not usual:
+        return sense
+    low, high, speed, torque = np.mean(usual, axis=0).tolist()
+    counted = {"from": "drawn"} if any(row.steers for row in rows) else {}
+    kept = {"speed": float(f"{speed:.2g}"), "torque": float(f"{torque:.2g}")}
+    return {"low": round(low), "high": round(high), **counted, **sense, **kept}
 
 
 if __name__ == "__main__":

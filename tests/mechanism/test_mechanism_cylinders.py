@@ -14,6 +14,7 @@ from mechanism_machine import (
     PRESSURE,
     ROD,
     STROKE,
+    box,
     machine,
     specification,
     specifications,
@@ -22,7 +23,7 @@ from mechanism_machine import (
 
 from yellowiron.mechanism import build_mechanism
 from yellowiron.mechanism.actuation.cylinder_geometry import CylinderGeometry
-from yellowiron.mechanism.actuation.cylinders import _Sizes, _usual_stroke
+from yellowiron.mechanism.actuation.cylinders import WALL, _Sizes, _usual_stroke
 from yellowiron.mechanism.values import Known
 from yellowiron.model.assembly import Assembly
 from yellowiron.model.mechanism import Cylinder, Mechanism
@@ -161,6 +162,25 @@ def test_nothing_shown_is_mid_stroke_and_says_so() -> None:
     assert only(built).sources["closed_length"].startswith("unknown")
     assert {"MEC003", "MEC022"} <= codes(built)
     assert built.joint("slide").axis == pytest.approx(np.array([0.7, 0.0, 0.6]) / math.hypot(0.7, 0.6))
+
+
+def test_a_barrel_that_shows_nothing_round_is_as_thick_as_it_is_drawn() -> None:
+    """It had no bore, and 0 N: its actuator stood still."""
+    assembly, alignment = machine()
+    boxed = {"barrel": box("barrel", (0.12, 0.16, 0.6), at=(0.0, 0.0, 0.3))}
+    assembly = replace(without_features(assembly, "rod"), shapes={**assembly.shapes, **boxed})
+    built = build_mechanism(assembly, template(), alignment, specifications(), name="crane")
+    assert only(built).bore == pytest.approx(WALL * 0.12)
+    assert only(built).push_force == pytest.approx(PRESSURE * math.pi / 4 * (WALL * 0.12) ** 2)
+    assert "MEC029" in codes(built)
+
+
+def test_what_is_as_thick_as_it_is_long_gives_no_bore() -> None:
+    assembly, alignment = machine()
+    lump = {"barrel": box("barrel", (0.3, 0.3, 0.4), at=(0.0, 0.0, 0.3))}
+    assembly = replace(without_features(assembly, "rod"), shapes={**assembly.shapes, **lump})
+    built = build_mechanism(assembly, template(), alignment, specifications(), name="crane")
+    assert only(built).bore == 0.0
 
 
 def test_speed_is_flow_over_area_or_the_cycle_time() -> None:

@@ -7,6 +7,7 @@ from pathlib import Path
 from types import SimpleNamespace
 from typing import cast
 
+import numpy as np
 from mechanism_machine import A, C, machine, specifications, template
 
 from yellowiron import kinematics, usd
@@ -62,6 +63,41 @@ def test_a_cylinder_on_a_pin_along_its_linkage_stands_and_the_hinge_is_driven() 
     assert mechanism.mobility is not None
     assert mechanism.mobility.computed == mechanism.mobility.expected == 1
     assert kinematics.unworkable(mechanism) == {}
+
+
+def test_a_cylinder_whose_link_was_not_found_stands_and_the_hinge_is_driven() -> None:
+    """A bucket whose link was not found stood welded to its arm while its cylinder turned a lever."""
+    plan = template()
+    lever = JointTemplate("base2lever", "revolute", ("base", "lever"))
+    rod = JointTemplate("lever2rod", "revolute", ("lever", "cylinder_rod"))
+    missing = (
+        JointTemplate("rod2link", "revolute", ("cylinder_rod", "link")),
+        JointTemplate("link2arm", "revolute", ("link", "arm")),
+    )
+    assembly, alignment = machine()
+    # A pin of the base serves as the lever; the rod hangs on it, and the link to the arm is not drawn.
+    parts = tuple(replace(a, role="lever", body="lever") if a.part.endswith("PIN L") else a for a in alignment.parts)
+    roles = (*plan.roles, Role("lever", "base", True, "frame"), Role("link", "arm", True, "frame"))
+    y = (0.0, 1.0, 0.0)
+    axes = {"base2lever": ((0.9, 0.3, 0.5), y), "lever2rod": ((1.0, 0.0, 1.0), y), "base2arm": (triple(A), y)}
+    alignment = replace(alignment, parts=parts, axes=axes, by_hand=frozenset(axes))
+    joints = (lever, rod, *missing, *(j for j in plan.joints if j.name != "arm2rod"))
+    cylinder = replace(plan.actuators[0].cylinders[0], rod_joint="lever2rod")
+    actuator = replace(plan.actuators[0], cylinders=(cylinder,))
+    mechanism = complete_mechanism(
+        assembly, replace(plan, roles=roles, joints=joints, actuators=(actuator,)), alignment, specifications()
+    )
+    assert told(mechanism, "MEC018") == ["lift"]
+    assert [j.joint for j in mechanism.actuators[0].joints] == ["base2arm"]
+    assert mechanism.mobility is not None
+    assert mechanism.mobility.computed == mechanism.mobility.expected == 1
+
+
+def test_a_cylinder_whose_pivots_are_one_place_stands() -> None:
+    """Its stroke was a thousandth of a millimetre."""
+    mechanism = solved(with_axis("base2barrel", np.array([1.0, 0.0, 1.001]), (0.0, 1.0, 0.0)))
+    assert told(mechanism, "MEC018") == ["lift"]
+    assert [j.joint for j in mechanism.actuators[0].joints] == ["base2arm"]
 
 
 def test_a_document_s_joint_is_obeyed() -> None:

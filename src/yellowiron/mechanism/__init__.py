@@ -31,7 +31,7 @@ MEC014  no rod in its bore shows the axis of a slide: it is along the line that 
 MEC015  no part is the root body; another body stands in for it
 MEC016  nothing that is drawn shows a joint's axis: it is where the CAD file declares it
 MEC017  an axle, a frame or a slideway is not drawn; the body that would carry it stands in for it
-MEC018  a cylinder's linkage does not work as it was found; it stands as drawn, its hinge is driven directly
+MEC018  a cylinder's linkage does not work as it was found, or does not reach; it stands, its hinge is driven directly
 MEC019  nothing moves or holds a body on its pivot or slide; it stands as drawn
 MEC020  a bore or rod diameter differs between sheet and CAD
 MEC021  the piston's travel in CAD is not the stroke
@@ -42,7 +42,7 @@ MEC025  the template's default stands for a value that no sheet gives
 MEC026  an actuator has no cylinder or motor left
 MEC027  nothing gives a value that a cylinder or motor needs; it has no force limit
 MEC028  a twin is driven in the place of the cylinder it follows, which was not found
-MEC029  a barrel is drawn without its bore, which was taken from its outer diameter
+MEC029  a barrel is drawn without its bore, which was taken from its outer diameter or its thickness
 MEC030  a part's material has no density; steel's was taken
 MEC031  an open or empty solid: its mass is that of a thin shell
 MEC032  masses were scaled to published weights (a warning where the factor is not plausible)

@@ -11,9 +11,14 @@ import numpy as np
 
 from yellowiron.mechanism import sensors, sites, values
 from yellowiron.mechanism.actuation import cylinders, drives
-from yellowiron.mechanism.actuation.direct_drives import direct_drives, with_direct_hinges, without_cylinders
+from yellowiron.mechanism.actuation.direct_drives import (
+    direct_drives,
+    out_of_reach,
+    with_direct_hinges,
+    without_cylinders,
+)
 from yellowiron.mechanism.actuation.proportion import proportion_of
-from yellowiron.mechanism.actuation.usual_hinges import hinges_driven_directly
+from yellowiron.mechanism.actuation.usual_hinges import hinges_driven_directly, with_senses
 from yellowiron.mechanism.actuation.winches import winch_drives, winch_falls, winch_limits, with_winches
 from yellowiron.mechanism.bodies import body, mass
 from yellowiron.mechanism.bodies.choice import Choice
@@ -86,7 +91,9 @@ def build_mechanism(
     template, frames, couplings = with_hidden_couplings(whole, template, frames, placement)
     template, frames, crosses = with_held_balls(template, frames, findings)
     knuckles |= couplings | crosses
-    template, hinges = with_direct_hinges(template, frames, placement, standing or {}, findings)
+    idle = out_of_reach(template, frames, placement)
+    frames = without_cylinders(template, frames, idle)
+    template, hinges = with_direct_hinges(template, frames, placement, idle | dict(standing or {}), findings)
     direct |= hinges
 
     # Which joints make the tree, which close its loops; axes of a loop exactly parallel.
@@ -127,11 +134,6 @@ def build_mechanism(
         _joint(_sourced(frame, alignment), tree, reached, powered, specifications, findings)
         for frame in frames.values()
     )
-    joints = hinges_driven_directly(
-        template, joints, direct, lambda body: placement.points_of(placement.rows_of_body(body)), proportion
-    )
-    joints = with_followers(joints, template, frames, findings)
-    joints = _with_idle_held(joints, tree, findings)
 
     # The bodies.
     findings += weighed
@@ -141,6 +143,14 @@ def build_mechanism(
     bodies = body.bodies(drawn, origins, placement, masses, tokens, findings)
     bodies = with_knuckles(bodies, knuckles, findings)
     bodies = with_wheels(bodies, tree.bodies, wheels, placement, masses, findings)
+
+    # What has no cylinder carries what hangs on it; what nothing drives follows or is held.
+    joints = hinges_driven_directly(
+        template, joints, direct, lambda b: placement.points_of(placement.rows_of_body(b)), proportion, bodies
+    )
+    actuators = with_senses(template, actuators, joints, direct)
+    joints = with_followers(joints, template, frames, findings)
+    joints = _with_idle_held(joints, tree, findings)
 
     # What is named and what is sensed on it.
     named = sites.sites(template, frames, placement, findings)

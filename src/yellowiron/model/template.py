@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import math
 from collections.abc import Mapping
 from dataclasses import dataclass, field, replace
 from typing import Any, Literal
@@ -277,13 +278,21 @@ class UsualHinge:
     """How the hinge that an actuator's cylinders turn usually moves: from the angle `low` to `high` (rad, from the line
     of what it is on to that of what it turns), at a `speed` (rad/s), with a `torque` of so many times the machine's
     weight times the diagonal of its box. `from_drawn`: the angles are counted from the drawn pose instead, in which
-    wheels point straight ahead."""
+    wheels point straight ahead. `sense`: 1 where it turns to larger angles as its actuator moves positive, else −1.
+    `common`: only the sense is the type's own."""
 
     low: float
     high: float
     speed: float
     torque: float
     from_drawn: bool = False
+    sense: int = 1
+    common: bool = False
+
+
+COMMON_HINGE = UsualHinge(math.radians(-45.0), math.radians(45.0), math.radians(40.0), 0.1, True, common=True)
+"""How a hinge moves of which its type says nothing: over the library's median turn and at its median speed, with its
+median torque and half as much again."""
 
 
 @dataclass(frozen=True)

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import re
 from collections import Counter
 from collections.abc import Mapping, Sequence
 from dataclasses import dataclass, replace
@@ -26,6 +27,8 @@ from yellowiron.support.vectors import triple
 
 SEVERAL = 3
 """A name that so many pieces bear, but for its number, is an assembly's: two may be the left and the right one."""
+_NUMBERED = re.compile(r"(?<!\d)0?[2-9]$")
+"""A name that ends in a number as sections are given; what a modelling tool adds has three digits."""
 PARTS = (1, 2)
 """What begins so many joints from the root may be all that is drawn."""
 
@@ -37,7 +40,7 @@ class Evidence:
     names say of each solid, what the contacts gave, what a person said, which pieces are bars in bores: pins, if they
     are not halves of hydraulic cylinders, the `surface` of all that is drawn, tracks too, m², and which pieces have no
     name but that of a part which they hang on in the tree (`borne`), or one that, but for its number, several bear, as
-    all that is of one file does (`namesakes`)."""
+    all that is of one file does (`namesakes`). `further`: those whose name numbers them beyond the first of several."""
 
     pieces: tuple[Piece, ...]
     leading: tuple[int, ...]
@@ -52,6 +55,7 @@ class Evidence:
     surface: float
     borne: frozenset[int] = frozenset()
     namesakes: frozenset[int] = frozenset()
+    further: frozenset[int] = frozenset()
 
     @property
     def between(self) -> list[Bond]:
@@ -108,8 +112,9 @@ def evidence_of(
     hanging = frozenset(k for k, p in enumerate(pieces) if p.members <= hung)
     surface = sum(s.surface for s in drawn) or 1.0
     return Evidence(
-        pieces, leads, bonds, trust, shared, stance, scores, answer, edited, pins, surface, hanging, _namesakes(parts)
-    )
+        pieces, leads, bonds, trust, shared, stance, scores, answer, edited, pins, surface, hanging, _namesakes(parts),
+        frozenset(k for k, mine in enumerate(parts) if any(_NUMBERED.search(part.name) for part in mine)),
+    )  # fmt: skip
 
 
 def _namesakes(parts: Sequence[Sequence[Part]]) -> frozenset[int]:

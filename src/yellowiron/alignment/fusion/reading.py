@@ -276,6 +276,7 @@ def _judged(best: Best, evidence: Evidence, doubtful: frozenset[int]) -> dict[in
     unsure = beside_lost_arms(best.template, played)
     contrary = against(best.field, best.labels, _told([best.votes[k] for k in chief], bodies))
     alone = _one_name(evidence)
+    sections = _sections(best.template)
     found: dict[int, Judged] = {}
     for k, piece in enumerate(pieces):
         if labels[k] == none:
@@ -295,7 +296,11 @@ def _judged(best: Best, evidence: Evidence, doubtful: frozenset[int]) -> dict[in
         words = f"{words}; it {best.between[k]}" if k in best.between else words
         words = f"{words}; but it could be a body between two others" if k in doubtful else words
         # What a mesh is called is true of no more than two of three of its solids, and what carries a part is not it.
-        own = (not alone and k not in evidence.shared | evidence.borne) or "said" in vote
+        # Nor does "boom 4" tell the boom from its fourth section.
+        own = (
+            not alone and k not in evidence.shared | evidence.borne and not (k in evidence.further and body in sections)
+        )
+        own = own or "said" in vote
         grounded = own and not doubted and _grounded(body, best.votes[k], named(piece, evidence.scores), evidence.trust)
         for i in piece.members:
             found[i] = Judged(body, margin, bodies[other] if other < none else None, words, grounded)
@@ -316,6 +321,13 @@ def _with_twins(label_of: Mapping[int, int], best: Best, bonds: Sequence[Bond]) 
             if alike and bodies[label_of[other]] in best.votes[own]:
                 found[own] = label_of[other]
     return found
+
+
+def _sections(template: Template) -> set[str]:
+    """The bodies of arms that slide on each other."""
+    arms = {role.name for role in template.roles if role.kind == "arm"}
+    pairs = ({str(b) for b in template.bodies_of(j)} for j in template.joints if j.type == "prismatic")
+    return {body for pair in pairs if pair <= arms for body in pair}
 
 
 def _told(votes: Sequence[Mapping[str, Features]], bodies: Sequence[str]) -> Floats:

@@ -6,11 +6,20 @@ from __future__ import annotations
 
 import math
 from collections.abc import Mapping
+from dataclasses import replace
 from typing import Any
 
 from yellowiron.library.notation.validated_json import Document, near
 from yellowiron.model.errors import TemplateError
-from yellowiron.model.template import ActuatorTemplate, Balance, Role, UsualHinge, Wanted, without_side
+from yellowiron.model.template import (
+    COMMON_HINGE,
+    ActuatorTemplate,
+    Balance,
+    Role,
+    UsualHinge,
+    Wanted,
+    without_side,
+)
 from yellowiron.model.usual import AlongLimb, Usual
 
 _ROUNDED = 0.01
@@ -57,12 +66,15 @@ def read_hinges(document: Document, actuators: tuple[ActuatorTemplate, ...]) -> 
                 where=document.at(name),
                 hint=near(name, known) or "Write the names of actuators, as in actuators.json.",
             )
+        sense = entry.get("sense", 1)
+        if "low" not in entry:
+            found[name] = replace(COMMON_HINGE, sense=sense)
+            continue
         low, high = (math.radians(entry[end]) for end in ("low", "high"))
         if low >= high:
             raise TemplateError("The range is empty", where=document.at(name), hint="low is less than high, degrees.")
-        found[name] = UsualHinge(
-            low, high, math.radians(entry["speed"]), entry["torque"], entry.get("from", "") == "drawn"
-        )
+        drawn = entry.get("from", "") == "drawn"
+        found[name] = UsualHinge(low, high, math.radians(entry["speed"]), entry["torque"], drawn, sense)
     return found
 
 

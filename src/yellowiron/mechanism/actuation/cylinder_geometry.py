@@ -30,6 +30,10 @@ _CLOSE = 0.2
 """Faces fitted to facets are about a line if their axes are within this share of their radius from it."""
 _OVER_SOLID = 1.15
 """As `_OVER_ROD`, where rod and barrel need not be in line."""
+_CORNERS = 6
+"""A prism has so many corners at least."""
+_SLENDER = 0.4
+"""No barrel is thicker than this share of its length."""
 _TWIN = 0.02
 """Relative difference up to which two barrels are twins."""
 _HEAD = 1.5
@@ -76,11 +80,11 @@ def measure_cylinder(
         if len(tubes):
             return _solid(tubes, shafts, shell, placement.points_of(rod_rows), line, count)
     if len(bores) == 0 or len(shell) == 0:
-        return CylinderGeometry()
+        return CylinderGeometry(outer=_thickness(shell, line), count=count)
     start, head = _extent(shell, line, _HEAD * float(bores.radius.max()))
     bore = _bore(bores, shafts, line, start, head)
     if bore is None:
-        return CylinderGeometry()
+        return CylinderGeometry(outer=_thickness(shell, line), count=count)
 
     # The rod is what comes out of the barrel: the longest shaft that reaches beyond its head.
     thin = shafts.take(shafts.radius < bore / _FIT)
@@ -147,6 +151,21 @@ def _solid(tubes: Features, shafts: Features, shell: Floats, rod: Floats, line: 
         to_eye = max(0.0, float(eye.min() - head)) if len(eye) else None
     rod_diameter = 2.0 * shaft if shaft is not None else None
     return CylinderGeometry(None, rod_diameter, to_eye=to_eye, outer=2.0 * outer, count=count)
+
+
+def _thickness(shell: Floats, line: Axis) -> float | None:
+    """How thick a barrel (n, 3) is across its line that shows nothing round: the smaller of its two widths, halfway
+    along where there are points. None for what is no barrel by its shape."""
+    if len(shell) < _CORNERS:
+        return None
+    along = line.along(shell)
+    low, high = float(along.min()), float(along.max())
+    inner = np.abs(along - 0.5 * (low + high)) < 0.25 * (high - low)
+    points = shell[inner] if inner.sum() >= _CORNERS else shell
+    across = points - np.outer(points @ line.direction, line.direction)
+    _, _, ways = np.linalg.svd(across - across.mean(axis=0), full_matrices=False)
+    width = float(np.ptp(across @ ways[:2].T, axis=0).min())
+    return width if 0.0 < width < _SLENDER * (high - low) else None
 
 
 def _bore(bores: Features, shafts: Features, line: Axis, start: float, head: float) -> float | None:

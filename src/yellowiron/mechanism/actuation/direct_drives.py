@@ -9,15 +9,26 @@ from dataclasses import replace
 
 import networkx
 
+from yellowiron.mechanism.actuation.cylinders import pivot_distance
 from yellowiron.mechanism.joints.frames import JointFrame
 from yellowiron.mechanism.placement import Placement
 from yellowiron.model.finding import Finding
 from yellowiron.model.mechanism import PROVISIONAL, STATED, Drive
-from yellowiron.model.template import ActuatorTemplate, CylinderTemplate, Follows, JointTemplate, Template
+from yellowiron.model.template import (
+    COMMON_HINGE,
+    ActuatorTemplate,
+    CylinderTemplate,
+    Follows,
+    JointTemplate,
+    Template,
+)
+from yellowiron.support.graphs import bridges
 
 _PINS = "Check the pins of their linkage (in the studio, or by 'joints' in the alignment)."
 _SIDES = re.compile(r"(?<=_)[lr](?=_)")
 """The side in a joint's name."""
+_SHORTEST = 0.1
+"""A cylinder's pivots are farther apart than this share of its barrel or rod."""
 _LONGEST = 6
 """Joints from a barrel round to its rod, at most."""
 
@@ -38,6 +49,30 @@ def without_cylinders(
     return left
 
 
+def out_of_reach(template: Template, frames: Mapping[str, JointFrame], placement: Placement) -> dict[str, str]:
+    """Slides of cylinders that cannot move what they are for, and why: the hinge that they should turn is in no loop,
+    as a link between was not found, or both pivots were found in one place."""
+    bodies = {name: frame.bodies for name, frame in frames.items()}
+    size = _size_in(placement)
+    loose, claimed = bridges(bodies), {name for actuator in template.actuators for name in actuator.joints}
+    found: dict[str, str] = {}
+    for actuator in (a for a in template.actuators if a.cylinders):
+        whole = [c for c in actuator.cylinders if c.pins and {*c.joints} <= frames.keys()]
+        hinge = hinge_of(template, actuator, bodies, size, claimed)
+        claimed |= {hinge} if hinge is not None else set()
+        if whole and hinge in loose:
+            found |= dict.fromkeys((c.slide for c in whole), f"nothing that joins them to '{bodies[hinge][1]}'")
+        for cylinder in whole:
+            apart = pivot_distance(*(frames[name] for name in cylinder.pins))
+            if apart < _SHORTEST * max(size(b) for b in bodies[cylinder.slide]):
+                found[cylinder.slide] = f"pivots {1e3 * apart:.0f} mm apart"
+    return found
+
+
+def _size_in(placement: Placement) -> Callable[[str], float]:
+    return lambda body: placement.diagonal(placement.rows_of_body(body))
+
+
 def with_direct_hinges(
     template: Template,
     frames: Mapping[str, JointFrame],
@@ -53,21 +88,17 @@ def with_direct_hinges(
     (`hinge_of`); one that another actuator's cylinders move is not taken.
     """
     claimed = {name for actuator in template.actuators for name in actuator.joints}
-
-    def size(body: str) -> float:
-        return placement.diagonal(placement.rows_of_body(body))
-
     bodies = {name: frame.bodies for name, frame in frames.items()}
     actuators: list[ActuatorTemplate] = []
     direct: dict[str, str] = {}
     for actuator in template.actuators:
-        hinge = hinge_of(template, actuator, bodies, size, claimed) if actuator.cylinders else None
+        hinge = hinge_of(template, actuator, bodies, _size_in(placement), claimed) if actuator.cylinders else None
         if hinge is not None:
             claimed.add(hinge)
         wrong = {c.slide: standing[c.slide] for c in actuator.cylinders if c.slide in standing}
         whole = any({*c.joints} <= frames.keys() for c in actuator.cylinders)
         if hinge is not None and not whole:
-            usual = actuator.name in template.hinges
+            usual = not template.hinges.get(actuator.name, COMMON_HINGE).common
             findings.append(_told(actuator.name, hinge, next(iter(wrong.values()), None), usual=usual))
             direct[hinge] = actuator.name
             actuator = replace(actuator, kind="motor", cylinders=(), joints=(hinge,))

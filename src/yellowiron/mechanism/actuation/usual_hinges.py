@@ -9,24 +9,23 @@ about another direction, forward.
 from __future__ import annotations
 
 import math
-from collections.abc import Callable, Mapping
+from collections.abc import Callable, Mapping, Sequence
 from dataclasses import dataclass, replace
 
 import numpy as np
 
 from yellowiron.mechanism.actuation.proportion import Proportion
 from yellowiron.model.geometry import Floats
-from yellowiron.model.mechanism import ESTIMATE, Joint
-from yellowiron.model.template import Template, UsualHinge
+from yellowiron.model.mechanism import ESTIMATE, GRAVITY, Actuator, ActuatorJoint, Body, Joint, Vector
+from yellowiron.model.template import COMMON_HINGE, Template, UsualHinge
 
 FORWARD, LEFT = np.array([1.0, 0.0, 0.0]), np.array([0.0, 1.0, 0.0])
 _LEVER = 0.1
 """Of a body's size: its middle is farther than this from its hinge where that shows how it is turned."""
 _MISREAD = math.radians(60.0)
 """An angle that is so far out of the usual range is no machine's."""
-COMMON = UsualHinge(math.radians(-45.0), math.radians(45.0), math.radians(40.0), 0.1, from_drawn=True)
-"""How a hinge moves of which its type says nothing: over the library's median turn and at its median speed, with its
-median torque and half as much again."""
+CARRIES = 1.5
+"""Times what hangs on a hinge, stretched out: what it is driven with at least. Cylinders lift a load besides."""
 _ALIKE = 0.9
 """Cosine of the angle between two axes that turn about one direction."""
 
@@ -80,10 +79,32 @@ def _line(points: Floats, hinge: Turned) -> Floats | None:
     return np.asarray(way) if float(np.linalg.norm(way)) > _LEVER * size else None
 
 
-def with_usual(joint: Joint, usual: UsualHinge, drawn: float | None, proportion: Proportion, kind: str) -> Joint:
+def carried_moment(joint: Joint, joints: Sequence[Joint], bodies: Mapping[str, Body]) -> float:
+    """The moment (N·m) about a joint of the tree of all that hangs on it, each body held out as far as the joints
+    between let it be: no pose has more. About an upright axis nothing."""
+    axis = np.asarray(joint.axis, float)
+    level = math.sqrt(max(0.0, 1.0 - float(axis[2]) ** 2))
+
+    def way(a: Vector, b: Vector) -> float:
+        step = np.subtract(b, a)
+        return float(np.linalg.norm(step - (step @ axis) * axis))
+
+    moment, held = 0.0, [(joint, 0.0)]
+    while held:
+        by, far = held.pop()
+        body = bodies[by.body1]
+        moment += GRAVITY * body.mass * (far + way(by.anchor, body.center_of_mass))
+        held += [(j, far + way(by.anchor, j.anchor)) for j in joints if j.body0 == by.body1 and not j.cut]
+    return level * moment
+
+
+def with_usual(
+    joint: Joint, usual: UsualHinge, drawn: float | None, proportion: Proportion, kind: str, *, carried: float = 0.0
+) -> Joint:
     """A joint that is driven directly, with what is usual where nothing is stated: limits, as it is drawn at the angle
-    `drawn`, a torque that suits the machine, a speed. What is drawn beyond the usual range may go there: no machine is
-    moved for what is usual. Far beyond it, the angle was misread, and is the range's end."""
+    `drawn`, a torque that suits the machine and what is `carried` (N·m), a speed. What is drawn beyond the usual range
+    may go there: no machine is moved for what is usual. Far beyond it, the angle was misread, and is the range's
+    end."""
     drive = joint.drive
     assert drive is not None
     middle = 0.5 * (usual.low + usual.high)
@@ -105,16 +126,19 @@ def with_usual(joint: Joint, usual: UsualHinge, drawn: float | None, proportion:
         source["limits"] = words
         joint = replace(joint, lower=lower, upper=upper, source=source)
     torque, speed = drive.max_force, drive.max_velocity
-    said = []
+    said, told = [], drive.source
     if math.isinf(torque) and proportion.weight > 0.0:
-        torque = usual.torque * proportion.weight * proportion.length
-        said.append("torque")
+        torque, least = usual.torque * proportion.weight * proportion.length, CARRIES * carried
+        if torque < least:
+            torque = least
+            told += f"; torque: {ESTIMATE}, {CARRIES:g} times what hangs on it, stretched out"
+        else:
+            said.append("torque")
     if math.isinf(speed):
         speed = usual.speed
         said.append("speed")
-    if said:
-        told = f"{drive.source}; {' and '.join(said)}: {ESTIMATE}, usual of {kind}"
-        drive = replace(drive, max_force=torque, max_velocity=speed, source=told)
+    told += f"; {' and '.join(said)}: {ESTIMATE}, usual of {kind}" if said else ""
+    drive = replace(drive, max_force=torque, max_velocity=speed, source=told)
     return replace(joint, drive=drive)
 
 
@@ -124,9 +148,11 @@ def hinges_driven_directly(
     direct: Mapping[str, str],
     points_of: Callable[[str], Floats],
     proportion: Proportion,
+    bodies: Sequence[Body],
 ) -> tuple[Joint, ...]:
     """The joints, those of `direct` (hinge → actuator) with what is usual of the type's. `points_of`: points (n, 3) of
     a body, metres, machine frame as drawn."""
+    by_name = {body.name: body for body in bodies}
     turned = {
         j.name: Turned(np.asarray(j.anchor), np.asarray(j.axis), j.body0, j.body1)
         for j in joints
@@ -136,8 +162,26 @@ def hinges_driven_directly(
     made = []
     for joint in joints:
         if joint.name in direct and joint.name in turned and joint.drive is not None:
-            usual = template.hinges.get(direct[joint.name], COMMON)
+            usual = template.hinges.get(direct[joint.name], COMMON_HINGE)
             drawn = None if usual.from_drawn else angle_of(joint.name, turned, points_of)
-            joint = with_usual(joint, usual, drawn, proportion, kind if usual is not COMMON else "machines")
+            carried = carried_moment(joint, joints, by_name)
+            whose = "machines" if usual.common else kind
+            joint = with_usual(joint, usual, drawn, proportion, whose, carried=carried)
         made.append(joint)
     return tuple(made)
+
+
+def with_senses(
+    template: Template, actuators: Sequence[Actuator], joints: Sequence[Joint], direct: Mapping[str, str]
+) -> tuple[Actuator, ...]:
+    """The actuators, those whose hinges are driven in the place of their cylinders (`direct`) moving them the way that
+    the cylinders would: positive raises a boom."""
+    axes = {j.name: np.asarray(j.axis) for j in joints}
+
+    def turned(each: ActuatorJoint) -> ActuatorJoint:
+        if each.joint not in direct:
+            return each
+        usual = template.hinges.get(direct[each.joint], COMMON_HINGE)
+        return replace(each, sign=usual.sense * int(sense(axes[each.joint])))
+
+    return tuple(replace(a, joints=tuple(turned(each) for each in a.joints)) for a in actuators)

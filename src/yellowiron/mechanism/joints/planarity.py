@@ -18,7 +18,8 @@ _ACCURACY = {True: math.radians(0.01), False: math.radians(0.05)}
 """Axes that differ by less than this are made parallel and nothing is said; exact ones, and fitted ones. Up to
 `PARALLEL` they are, with a finding."""
 _IN_A_PLANE = math.radians(2.0)
-"""Up to here the pivots of an open arm are made parallel to its first."""
+"""Up to here axes that are fitted to facets are made parallel, and the pivots of an open arm to its first: coarse
+meshes show them no better, and a loop whose pins are half a degree askew jams in every engine."""
 
 
 def make_parallel(
@@ -65,10 +66,15 @@ def _families(pivots: Mapping[str, JointFrame]) -> list[list[JointFrame]]:
     left = sorted(pivots.values(), key=lambda f: -f.weight)
     families = []
     while left:
-        near = [f for f in left if np.linalg.norm(np.cross(left[0].axis, f.axis)) < math.sin(PARALLEL)]
+        near = [f for f in left if np.linalg.norm(np.cross(left[0].axis, f.axis)) < _askew(left[0], f)]
         families.append(near)
         left = [f for f in left if all(f is not n for n in near)]
     return families
+
+
+def _askew(*frames: JointFrame) -> float:
+    """The sine of the angle up to which axes were meant to be parallel."""
+    return math.sin(PARALLEL if all(f.exact for f in frames) else _IN_A_PLANE)
 
 
 def _mean(family: Sequence[JointFrame]) -> Floats:
@@ -83,7 +89,7 @@ def _flatten(
 ) -> None:
     for normal in normals:
         lean = float(slide.axis @ normal)
-        if abs(lean) < math.sin(PARALLEL):
+        if abs(lean) < _askew(slide):
             flat = slide.axis - lean * normal
             _turn(result, slide, flat / np.linalg.norm(flat), findings)
 
