@@ -213,8 +213,9 @@ def twin_template(sign: int) -> Template:
     return replace(plan, roles=roles, joints=joints, actuators=(lift,))
 
 
-def build_twin(sign: int, *, alone: bool = False) -> Mechanism:
-    """The twin's parts are the first cylinder's, moved 0.2 m aside; `alone`: nobody plays the first cylinder."""
+def build_twin(sign: int, *, alone: bool = False, misplaced: bool = False) -> Mechanism:
+    """The twin's parts are the first cylinder's, moved 0.2 m aside; `alone`: nobody plays the first cylinder;
+    `misplaced`: both of its pivots were found in one place."""
     assembly, alignment = machine()
     aside = np.eye(4)
     aside[1, 3] = 0.2
@@ -231,10 +232,11 @@ def build_twin(sign: int, *, alone: bool = False) -> Mechanism:
     first = alignment.parts
     if alone:
         first = tuple(replace(a, role=None, body=None) if a.body in bodies else a for a in first)
+    axes = {"base2barrel": ((1.0, 0.0, 1.001), (0.0, 1.0, 0.0))} if misplaced else {}
     return build_mechanism(
         replace(assembly, parts=assembly.parts + parts),
         twin_template(sign),
-        replace(alignment, parts=first + more),
+        replace(alignment, parts=first + more, axes=axes, by_hand=frozenset(axes)),
         Specifications(
             {s.name: s for s in (specification("Stroke", STROKE), specification("Pressure", PRESSURE, "Pa"))}
         ),
@@ -257,8 +259,9 @@ def test_the_driven_twin_carries_both_and_the_passive_follows(sign: int) -> None
     assert wide.lower is not None and wide.lower < -passive.extension
 
 
-def test_a_twin_left_alone_is_driven_in_its_place() -> None:
-    built = build_twin(1, alone=True)
+@pytest.mark.parametrize("how", ["alone", "misplaced"])
+def test_a_twin_left_alone_is_driven_in_its_place(how: str) -> None:
+    built = build_twin(1, **{how: True})
     (left,) = built.cylinders
     assert left.slide == "twin_slide" and not left.passive
     drive = built.joint("twin_slide").drive

@@ -107,6 +107,8 @@ def test_a_document_s_joint_is_obeyed() -> None:
     mechanism = solved(with_axis("base2barrel", C, (0.0, 0.0, 1.0)), replace(plan, joints=joints))
     assert [c.slide for c in mechanism.cylinders] == ["slide"]
     assert not told(mechanism, "MEC018")
+    near = with_axis("base2barrel", np.array([1.0, 0.0, 1.001]), (0.0, 1.0, 0.0))
+    assert not told(solved(near, replace(plan, joints=joints)), "MEC018")
 
 
 def test_the_hinge_between_the_largest_bodies_is_driven() -> None:

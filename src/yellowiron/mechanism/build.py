@@ -86,13 +86,13 @@ def build_mechanism(
     frames, remarks = joint_frames(placement, template, wheels)
     findings += remarks
     frames = without_cylinders(template, frames, standing or {})
-    template = cylinders.with_leaders(template, frames, findings)
     template, frames, direct, knuckles = with_kingpins(whole, template, frames, placement, findings)
     template, frames, couplings = with_hidden_couplings(whole, template, frames, placement)
     template, frames, crosses = with_held_balls(template, frames, findings)
     knuckles |= couplings | crosses
     idle = out_of_reach(template, frames, placement)
     frames = without_cylinders(template, frames, idle)
+    template = cylinders.with_leaders(template, frames, findings)
     template, hinges = with_direct_hinges(template, frames, placement, idle | dict(standing or {}), findings)
     direct |= hinges
 

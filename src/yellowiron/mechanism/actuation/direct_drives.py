@@ -51,13 +51,15 @@ def without_cylinders(
 
 def out_of_reach(template: Template, frames: Mapping[str, JointFrame], placement: Placement) -> dict[str, str]:
     """Slides of cylinders that cannot move what they are for, and why: the hinge that they should turn is in no loop,
-    as a link between was not found, or both pivots were found in one place."""
+    as a link between was not found, or both pivots were found in one place. Cylinders with a joint of a user's document
+    are left as they were told."""
     bodies = {name: frame.bodies for name, frame in frames.items()}
     size = _size_in(placement)
     loose, claimed = bridges(bodies), {name for actuator in template.actuators for name in actuator.joints}
     found: dict[str, str] = {}
     for actuator in (a for a in template.actuators if a.cylinders):
         whole = [c for c in actuator.cylinders if c.pins and {*c.joints} <= frames.keys()]
+        whole = [c for c in whole if not any("joint" in frames[name].joint.documents for name in c.joints)]
         hinge = hinge_of(template, actuator, bodies, size, claimed)
         claimed |= {hinge} if hinge is not None else set()
         if whole and hinge in loose:
