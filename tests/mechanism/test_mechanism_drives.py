@@ -11,8 +11,11 @@ import pytest
 from mechanism_machine import machine, pin, specifications, template
 
 from yellowiron.mechanism import build_mechanism
+from yellowiron.mechanism.actuation.proportion import WEAKEST, Proportion
+from yellowiron.mechanism.values import Known
 from yellowiron.model.alignment import PartAssignment
 from yellowiron.model.assembly import Part
+from yellowiron.model.finding import Finding
 from yellowiron.model.mechanism import Mechanism
 from yellowiron.model.template import ActuatorTemplate, JointTemplate, Material, Role, Template, Wanted
 
@@ -55,7 +58,7 @@ def test_a_motor_s_speed_on_the_ground_becomes_its_own(dimension: str, expected:
     """A wheel of 0.5 m radius on an axle of the base: 4 m/s on the ground are 8 rad/s."""
     plan = template()
     motor = ActuatorTemplate("drive", "motor", joints=("wheel_joint",), specifications={"speed": "Speed"},
-                             defaults={"speed": 4.0, "torque": 100.0})  # fmt: skip
+                             defaults={"speed": 4.0, "torque": 800.0})  # fmt: skip
     plan = replace(
         plan,
         roles=(*plan.roles, Role("wheel", "base", True, "wheel"), Role("axle", "base", False, "pin")),
@@ -85,7 +88,7 @@ def test_a_motor_s_speed_on_the_ground_becomes_its_own(dimension: str, expected:
     assert joint.drive is not None
     assert joint.drive.kind == "velocity" and joint.drive.stiffness == 0.0
     assert joint.drive.max_velocity == pytest.approx(expected)
-    assert joint.drive.max_force == 100.0
+    assert joint.drive.max_force == 800.0
     assert built.actuators[-1].kind == "motor"
 
 
@@ -157,6 +160,17 @@ def test_defaults_of_a_usual_machine_are_limited_on_a_light_one() -> None:
     given = build(plan, **{"Swing Torque": 70e3})
     stated = given.joint("base2arm").drive
     assert stated is not None and stated.max_force == 70e3 and "MEC036" not in codes(given)
+
+
+def test_a_default_torque_is_no_less_than_suits_a_large_machine() -> None:
+    """Excavators of hundreds of tonnes, which artists draw, did not swing with what turns one of twenty."""
+    machine, findings = Proportion(5e6, 20.0), list[Finding]()
+    raised = machine.torque(Known(70e3, "template's default"), "swing", findings)
+    assert raised.value == pytest.approx(WEAKEST * 5e6 * 20.0)
+    assert "raised to what suits" in raised.source and [f.code for f in findings] == ["MEC036"]
+    assert Proportion(2e5, 10.0).torque(Known(70e3, "default"), "swing", findings).value == 70e3
+    assert Proportion(0.0, 10.0).torque(Known(70e3, "default"), "swing", findings).value == 70e3
+    assert len(findings) == 1
 
 
 def test_a_cylinder_under_default_pressure_is_no_stronger_than_twenty_machines() -> None:

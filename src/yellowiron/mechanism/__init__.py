@@ -49,7 +49,7 @@ MEC032  masses were scaled to published weights (a warning where the factor is n
 MEC033  published component weights leave nothing of the operating weight
 MEC034  a body has no volume and no area; it weighs 1 kg
 MEC035  no weight is published, and by volume and density it would weigh far from what is usual, which was assumed
-MEC036  the template's default would drive a machine of this weight far too hard; it was limited
+MEC036  the template's default would drive a machine of this weight far too hard, or too weakly; it was put right
 MEC037  nothing leads a joint that follows another: its leader was not found, or one of the two is cut
 MEC038  knuckles of steered wheels are not drawn: the wheels are steered about upright axes through their middles
 MEC039  bodies were held to the usual shares of the weight, which geometry cannot say
