@@ -80,8 +80,8 @@ def _line(points: Floats, hinge: Turned) -> Floats | None:
 
 
 def carried_moment(joint: Joint, joints: Sequence[Joint], bodies: Mapping[str, Body]) -> float:
-    """The moment (N·m) about a joint of the tree of all that hangs on it, each body held out as far as the joints
-    between let it be: no pose has more. About an upright axis nothing."""
+    """The moment (N·m) about a joint of the tree of all that hangs on it, each body held out as far as the hinges
+    between let it be, slides as drawn. About an upright axis nothing."""
     axis = np.asarray(joint.axis, float)
     level = math.sqrt(max(0.0, 1.0 - float(axis[2]) ** 2))
 
