@@ -48,12 +48,15 @@ from yellowiron.alignment.axes.unfound import axis_findings, lines_of, rough_axe
 from yellowiron.alignment.copies import copies_of
 from yellowiron.alignment.facing import Facing
 from yellowiron.alignment.features.distance import Touch, touch_of
+from yellowiron.alignment.features.machines import called_machine, with_floating
 from yellowiron.alignment.features.separate_parts import separate_parts
 from yellowiron.alignment.features.solids import solids_of
 from yellowiron.alignment.features.tracks import Track
 from yellowiron.alignment.files.decisions import decided
 from yellowiron.alignment.files.heard import heard_of_whole, unlikely
+from yellowiron.alignment.fusion.judge import weights
 from yellowiron.alignment.fusion.named_bodies import WORDS, agreed, with_named, without_misnamed
+from yellowiron.alignment.fusion.pieces import LARGE
 from yellowiron.alignment.fusion.reading import AS_GOOD, fused
 from yellowiron.alignment.labelling.bystanders import among_strangers, doubted
 from yellowiron.alignment.labelling.coupler import with_couplers
@@ -137,6 +140,47 @@ def align(
         raise AlignmentError(
             "The CAD model has no parts", where=assembly.name, hint="Check that the file holds solids."
         )
+    first = _read(assembly, template, specifications, edits, choices, square, None)
+    if first.score is None:
+        return first.found
+    floating = with_floating(first.single, first.apart, first.found.frame[2, :3])
+    if floating is None:
+        return first.found
+    whole = _read(assembly, template, specifications, edits, choices, square, floating)
+    return (whole if whole.standing > first.standing + AS_GOOD else first).found
+
+
+@dataclass(frozen=True, eq=False)
+class _Read:
+    """What was `found` where the parts `apart` (of the model without copies, `single`) are none of the machine's; what
+    the judge makes of it (`score`), None where contacts found the machine."""
+
+    found: Alignment
+    single: Assembly
+    apart: Mapping[str, float]
+    score: float | None
+
+    @property
+    def standing(self) -> float:
+        """What the judge makes of all that is drawn: what is large is not left out lightly."""
+        if self.score is None:
+            return np.inf
+        areas = {p.id: self.single.shape_of(p).area for p in self.single.parts}
+        most = max((area for part, area in areas.items() if part not in self.apart), default=0.0) or 1.0
+        shares = [min(1.0, areas[part] / most) for part, metres in sorted(self.apart.items()) if metres > 0.0]
+        return self.score + weights()["left out"] * sum(float(np.sqrt(s)) for s in shares if s > LARGE)
+
+
+def _read(
+    assembly: Assembly,
+    template: Template,
+    specifications: Specifications,
+    edits: Alignment | None,
+    choices: Mapping[str, str] | None,
+    square: Floats | None,
+    way: Mapping[str, float] | None,
+) -> _Read:
+    """`align` where `way` are the parts that are none of the machine's: None where that is to be found out."""
     decisions, told = decided(assembly, template, edits)
     edited = {part: decision.role or "" for part, decision in decisions.items()}
     said, heard = heard_of_whole(edits, edited, assembly, template, choices or {})
@@ -146,9 +190,9 @@ def align(
     drawn = _without(assembly, bumpers)
     copies = {copy: first for copy, first in copies_of(drawn).items() if copy not in edited}
     single = _without(drawn, copies)
-    apart = separate_parts(single)
-    wanted = frozenset(part for part, role in edited.items() if role and part in apart)
-    apart = dict(separate_parts(single, wanted) if wanted else apart)
+    wanted = frozenset(part for part, role in edited.items() if role)
+    alone = way if way is not None else _apart(single, template, wanted)
+    apart = dict(alone)
     tracking = _without(single, apart)
     tracked, tracks = tracks_in(tracking, template)
     machine = _without(tracking, set(tracked.values()))
@@ -288,7 +332,18 @@ def align(
         found = replace(found, findings=(*found.findings, *against))
     drawn_axles = as_drawn(whole, {p.body for p in found.parts if p.body is not None})
     aside = {*fittings, *on_further.places}
-    return _with_all_axes(found, _without(assembly, aside), drawn_axles, answer, observation, frame)
+    found = _with_all_axes(found, _without(assembly, aside), drawn_axles, answer, observation, frame)
+    score = judged.score if judged is not None and answer.judged is not None else None
+    return _Read(found, single, alone, score)
+
+
+def _apart(assembly: Assembly, template: Template, wanted: frozenset[str]) -> Mapping[str, float]:
+    """The parts that stand apart from the machine, or from the one of several that is called so."""
+    apart = separate_parts(assembly)
+    kept = wanted & apart.keys()
+    apart = separate_parts(assembly, kept) if kept else apart
+    called = called_machine(assembly, template, apart, wanted)
+    return apart if called is None else called
 
 
 def _with_all_axes(
