@@ -23,7 +23,7 @@ MUCH = 0.02
 """What floats and has less than this share of the surface makes no other machine of the rest."""
 LOW = 0.05
 """What is no higher over the machine's lowest point than this share of its size stands as low."""
-MACHINE = 0.25
+MACHINE = 0.05
 """A group with this share of the surface of the largest machine may be the machine itself."""
 CALLED = 0.5
 """What is called a machine of the type is it if this share of its surface is called so."""
