@@ -11,8 +11,8 @@ from kit.machines.defects import drawn
 from kit.machines.solids import box, tube
 from kit.machines.synthetic import Machine
 from yellowiron.alignment import align
-from yellowiron.alignment.features.machines import called_machine, with_floating
 from yellowiron.alignment.features.separate_parts import separate_parts
+from yellowiron.alignment.machines import called_machine, with_floating
 from yellowiron.cad.mesh.assembly import Occurrence, assemble
 from yellowiron.library import load_template
 from yellowiron.model.assembly import Assembly

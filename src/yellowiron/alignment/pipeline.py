@@ -48,15 +48,12 @@ from yellowiron.alignment.axes.unfound import axis_findings, lines_of, rough_axe
 from yellowiron.alignment.copies import copies_of
 from yellowiron.alignment.facing import Facing
 from yellowiron.alignment.features.distance import Touch, touch_of
-from yellowiron.alignment.features.machines import called_machine, with_floating
 from yellowiron.alignment.features.separate_parts import separate_parts
 from yellowiron.alignment.features.solids import solids_of
 from yellowiron.alignment.features.tracks import Track
 from yellowiron.alignment.files.decisions import decided
 from yellowiron.alignment.files.heard import heard_of_whole, unlikely
-from yellowiron.alignment.fusion.judge import weights
 from yellowiron.alignment.fusion.named_bodies import WORDS, agreed, with_named, without_misnamed
-from yellowiron.alignment.fusion.pieces import LARGE
 from yellowiron.alignment.fusion.reading import AS_GOOD, fused
 from yellowiron.alignment.labelling.bystanders import among_strangers, doubted
 from yellowiron.alignment.labelling.coupler import with_couplers
@@ -83,13 +80,13 @@ from yellowiron.alignment.labelling.track_places import (
     without_tracks,
 )
 from yellowiron.alignment.labelling.undercut import regrounded, too_low, undercut
+from yellowiron.alignment.machines import called_machine
 from yellowiron.alignment.structure.ground_cut import parted
 from yellowiron.alignment.structure.observation import Observation, observe
 from yellowiron.alignment.tolerances import CONTACT
 from yellowiron.alignment.undrawn import undrawn
 from yellowiron.model.alignment import DECIDED, Alignment, Vector
 from yellowiron.model.assembly import Assembly
-from yellowiron.model.errors import AlignmentError
 from yellowiron.model.geometry import Floats
 from yellowiron.model.rows import as_drawn
 from yellowiron.model.specification import Specifications
@@ -119,39 +116,8 @@ HEARD = 0.9
 """Names trusted so far go before contacts that they contradict and that did not find the whole machine."""
 
 
-def align(
-    assembly: Assembly,
-    template: Template,
-    specifications: Specifications,
-    *,
-    edits: Alignment | None = None,
-    choices: Mapping[str, str] | None = None,
-    square: Floats | None = None,
-) -> Alignment:
-    """Roles for the parts of a CAD model.
-
-    `template` may carry variants: those `decided_by` geometry are tried and the best is taken, unless `choices` fixes
-    them. `edits` is an earlier alignment, as a person left it (`read_alignment`): its rules and the parts that were
-    `DECIDED` keep their role. `square`: how the model was turned against its file (`squared`). `AlignmentError` for an
-    assembly without parts, for an unknown choice, and for edits that name parts or roles that do not exist. The result
-    does not depend on the order or names (beyond their weight) of the parts.
-    """
-    if not assembly.parts:
-        raise AlignmentError(
-            "The CAD model has no parts", where=assembly.name, hint="Check that the file holds solids."
-        )
-    first = _read(assembly, template, specifications, edits, choices, square, None)
-    if first.score is None:
-        return first.found
-    floating = with_floating(first.single, first.apart, first.found.frame[2, :3])
-    if floating is None:
-        return first.found
-    whole = _read(assembly, template, specifications, edits, choices, square, floating)
-    return (whole if whole.standing > first.standing + AS_GOOD else first).found
-
-
 @dataclass(frozen=True, eq=False)
-class _Read:
+class Reading:
     """What was `found` where the parts `apart` (of the model without copies, `single`) are none of the machine's; what
     the judge makes of it (`score`), None where contacts found the machine."""
 
@@ -160,18 +126,8 @@ class _Read:
     apart: Mapping[str, float]
     score: float | None
 
-    @property
-    def standing(self) -> float:
-        """What the judge makes of all that is drawn: what is large is not left out lightly."""
-        if self.score is None:
-            return np.inf
-        areas = {p.id: self.single.shape_of(p).area for p in self.single.parts}
-        most = max((area for part, area in areas.items() if part not in self.apart), default=0.0) or 1.0
-        shares = [min(1.0, areas[part] / most) for part, metres in sorted(self.apart.items()) if metres > 0.0]
-        return self.score + weights()["left out"] * sum(float(np.sqrt(s)) for s in shares if s > LARGE)
 
-
-def _read(
+def read(
     assembly: Assembly,
     template: Template,
     specifications: Specifications,
@@ -179,8 +135,8 @@ def _read(
     choices: Mapping[str, str] | None,
     square: Floats | None,
     way: Mapping[str, float] | None,
-) -> _Read:
-    """`align` where `way` are the parts that are none of the machine's: None where that is to be found out."""
+) -> Reading:
+    """`align` where the parts of `way` are none of the machine's: None where that is to be found out."""
     decisions, told = decided(assembly, template, edits)
     edited = {part: decision.role or "" for part, decision in decisions.items()}
     said, heard = heard_of_whole(edits, edited, assembly, template, choices or {})
@@ -334,7 +290,7 @@ def _read(
     aside = {*fittings, *on_further.places}
     found = _with_all_axes(found, _without(assembly, aside), drawn_axles, answer, observation, frame)
     score = judged.score if judged is not None and answer.judged is not None else None
-    return _Read(found, single, alone, score)
+    return Reading(found, single, alone, score)
 
 
 def _apart(assembly: Assembly, template: Template, wanted: frozenset[str]) -> Mapping[str, float]:
