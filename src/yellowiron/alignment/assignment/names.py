@@ -16,6 +16,7 @@ from collections.abc import Collection, Iterable, Iterator, Mapping, Sequence
 from dataclasses import dataclass, field, replace
 from importlib import resources
 
+import networkx
 from rapidfuzz.distance import DamerauLevenshtein
 
 from yellowiron.model.assembly import Part
@@ -52,6 +53,7 @@ _ELIDED = re.compile(r"\b[dl]['\u2019](?=\w)", re.IGNORECASE)
 _HIGH = re.compile(r"[\x80-\xff\u0152-\u2122]{2,}")
 _COUNT = re.compile(r"[\s_#.-]*\d*$")
 _LINK = re.compile(r"link[\W\d_]*$", re.IGNORECASE)
+_SECTION = re.compile(r"(?<!\d)0?[1-9]$")
 _FIRST = re.compile(r"^.*?(?:[A-Z]+(?![a-z])|[A-Z]?[a-z]+|$)[\W_]*")
 LINKS = 4
 """Of so many names that end in "link", and of most of a model's, it is a robot description's word for a body."""
@@ -446,4 +448,30 @@ def name_scores(parts: tuple[Part, ...], template: Template, whole: Template | N
         if body is not None:
             found[body] = EXACT
         scores.append(found)
-    return scores
+    return _any_section(scores, parts, whole or template)
+
+
+def _any_section(scores: list[dict[str, float]], parts: Sequence[Part], template: Template) -> list[dict[str, float]]:
+    """The scores, those of what is numbered as the sections of a boom or a mast are (`BoomSection1` … `BoomSection4`)
+    alike for every section that its name speaks of: which it is, its name does not tell."""
+    numbered: dict[str, set[str]] = {}
+    for part in parts:
+        if (end := _SECTION.search(part.name)) is not None:
+            numbered.setdefault(part.name[: end.start()], set()).add(end[0])
+    several = {stem + n for stem, numbers in numbered.items() if len(numbers) > 1 for n in numbers}
+    groups = sections_of(template) if several else ()
+    found = []
+    for part, said in zip(parts, scores, strict=True):
+        best = max(said, key=lambda b: said[b], default="") if part.name in several else ""
+        alike = next((group & said.keys() for group in groups if best in group), set[str]())
+        found.append(said | dict.fromkeys(sorted(alike), said.get(best, 0.0)))
+    return found
+
+
+@remembered
+def sections_of(template: Template) -> tuple[frozenset[str], ...]:
+    """The bodies of arms that slide in each other, each boom or mast by itself."""
+    arms = {role.name for role in template.roles if role.kind == "arm"}
+    pairs = [tuple(str(b) for b in template.bodies_of(j)) for j in template.joints if j.type == "prismatic"]
+    graph = networkx.Graph([pair for pair in pairs if set(pair) <= arms])
+    return tuple(frozenset(group) for group in sorted(networkx.connected_components(graph), key=sorted))
