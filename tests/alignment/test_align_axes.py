@@ -164,19 +164,32 @@ def test_without_evidence_a_guess_says_how_rough_it_is() -> None:
     assert abs(found.direction[1]) > 0.999
 
 
-@pytest.mark.parametrize(("wide", "way"), [(0.8, (0.0, 0.0, 1.0)), (0.1, (1.0, 0.0, 0.0))])
-def test_what_slides_on_a_mast_that_is_not_drawn_goes_up(wide: float, way: tuple[float, float, float]) -> None:
-    """Forks lie along the machine: their length is not the way that they are lifted; a narrow bar slides along its."""
-    template = as_drawn(choose(load_template("forklift"), {"mast": "single"}), {"chassis", "carriage"})
+def slide_of(template: Template, moved: str, wide: float) -> AxisEstimate:
+    """The slide of a flat bar, 1.2 m long, before a chassis."""
     solids = solids_from(
         (polygons.box((2.0, 1.0, 1.5)), (0.0, 0.0, 0.8)), (polygons.box((1.2, wide, 0.1)), (1.65, 0.0, 0.1))
     )
     ahead = [s.index for s in solids if s.center[0] > 1.0]
-    labels = {"chassis": [s.index for s in solids if s.index not in ahead], "carriage": ahead}
+    labels = {"chassis": [s.index for s in solids if s.index not in ahead], moved: ahead}
     frame = Frame(np.array([1.0, 0.0, 0.0]), np.array([0.0, 1.0, 0.0]), np.array([0.0, 0.0, 1.0]))
-    found = estimate_axes(solids, labels, template, frame=frame)["outer_mast2carriage_joint"]
-    assert np.abs(found.direction) == pytest.approx(way, abs=1e-3)
+    found = estimate_axes(solids, labels, template, frame=frame)
+    (slide,) = (e for name, e in found.items() if template.joint(name).type == "prismatic")
+    return slide
+
+
+@pytest.mark.parametrize("wide", [0.8, 0.1])
+def test_what_slides_on_a_mast_that_is_not_drawn_goes_up(wide: float) -> None:
+    """Forks lie along the machine: their length is not the way that they are lifted."""
+    forklift = as_drawn(choose(load_template("forklift"), {"mast": "single"}), {"chassis", "carriage"})
+    found = slide_of(forklift, "carriage", wide)
+    assert np.abs(found.direction) == pytest.approx((0.0, 0.0, 1.0), abs=1e-3)
     assert (found.how == "how its machine stands") == (wide > 0.5)
+
+
+def test_a_narrow_section_of_a_boom_that_is_not_drawn_slides_along_its_length() -> None:
+    telehandler = as_drawn(choose(load_template("telehandler"), {"sections": "two"}), {"chassis", "inner_boom"})
+    found = slide_of(telehandler, "inner_boom", 0.1)
+    assert np.abs(found.direction) == pytest.approx((1.0, 0.0, 0.0), abs=1e-3)
 
 
 def test_a_pivot_of_the_scene_tree_is_taken_where_the_bodies_meet() -> None:
