@@ -43,6 +43,7 @@ from strangers_placed import (  # noqa: E402
     ftl,
     instances,
     mjcf,
+    nested,
     page,
     picked,
     pinned,
@@ -164,6 +165,17 @@ TRUCK = (
     "Wheel_Front_Left", "WHeel_Second_Left_Back", "Wheel_First_Left_Back", "Body.002",
 )  # fmt: skip
 """… and those of three others."""
+SHOVEL = (
+    "SM_Veh_Loader_01", *(f"SM_Veh_Loader_01_{k}" for k in (
+        "Joystick", "Wheel_rl", "Wheel_fl", "Wheel_fr", "Wheel_rr", "Arm", "Bucket", "SteeringW", "Glass",
+    )),
+)  # fmt: skip
+"""Of a file with several tools in one place, those with one tool …"""
+TRACKED = ("Track_r", "Track_Wheel_rr", "Track_Wheel_fr", "Track_Wheel_fl", "Track_Wheel_rl", "Track_l")
+CABBED = ("Top", "Arm_01", "Arm_02", "Joystick_01", "Joystick_02", "Lever_01", "Lever_02")
+LARGE = tuple(f"SM_Veh_Excavator_01{k}" for k in ("", *(f"_{k}" for k in (*TRACKED, *CABBED, "Bucket_01", "Glass"))))
+SMALL = tuple(f"SM_Veh_Excavator_02{k}" for k in ("", *(f"_{k}" for k in (*TRACKED, *CABBED, "Bucket_02"))))
+"""… and of two others."""
 BUILDERS: dict[str, Callable[[Job], None]] = {
     "aaronlachlan_forklift": one,
     "abayir_roller": one,
@@ -190,6 +202,14 @@ BUILDERS: dict[str, Callable[[Job], None]] = {
     "gaia_wheel_loader": in_nodes(picked(*LOADER)),
     "greetingbear_work_equipment": one,
     "haibingwang_simple_excavator": packed,
+    "hemanth_dozer": one,
+    "hemanth_excavator": in_nodes(picked(*LARGE)),
+    "hemanth_mini_excavator": in_nodes(picked(*SMALL)),
+    "hemanth_mobile_crane": one,
+    "hemanth_roller": one,
+    "hemanth_skid_steer": one,
+    "hemanth_telehandler": one,
+    "hemanth_wheel_loader": in_nodes(picked(*SHOVEL)),
     "hiepnm_excavator": one,
     "icmantis_excavator": in_nodes(prefab),
     "ix35e_excavator": turned(summed),
@@ -214,6 +234,7 @@ BUILDERS: dict[str, Callable[[Job], None]] = {
     "natutech_excavator": in_blender(MERGED),
     "newton_excavator": turned(urdf),
     "niklaslidz_wheel_loader": turned(urdf),
+    "notsofr0sty_dump_truck": one,
     "ocs_dump_truck": one,
     "octoman_excavator": one,
     "octoman_forklift": one,
@@ -224,7 +245,9 @@ BUILDERS: dict[str, Callable[[Job], None]] = {
     "priyansh_forklift": one,
     "pudong_excavator": turned(urdf),
     "rosatus_mini_excavator": in_nodes(pinned),
+    "saguanamu_backhoe_loader": in_nodes(nested),
     "sarisman_excavator": one,
+    "segrom_forklift": one,
     "shebbyy_excavator": one,
     "simcity_excavator": one,
     "simcity_forklift": one,
@@ -240,6 +263,7 @@ BUILDERS: dict[str, Callable[[Job], None]] = {
     "utvandraren_forklift": one,
     "valkoja_low_poly_full": in_blender(OPENED, "full"),
     "valkoja_low_poly_half": in_blender(OPENED, "half"),
+    "vishalmohanexd_forklift": one,
     "wajueji_excavator": one,
     "wreckingball_crane": one,
     "zszach23_forklift": one,

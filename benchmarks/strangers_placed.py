@@ -320,17 +320,12 @@ def prefab(job: Job) -> Placed:
     above: dict[str, str] = {}
     local: dict[str, np.ndarray] = {}
 
-    def place(told: dict[str, float]) -> np.ndarray:
-        turn = Rotation.from_quat([told.get(f"m_LocalRotation.{k}", float(k == "w")) for k in "xyzw"])
-        moved = _place(turn, [told.get(f"m_LocalPosition.{k}", 0.0) for k in "xyz"])
-        return moved @ np.diag([*(told.get(f"m_LocalScale.{k}", 1.0) for k in "xyz"), 1.0])
-
     for kind, own, block in blocks:
         father = re.search(r"m_Father: \{fileID: (-?\d+)", block)
         if kind == "4" and father is not None:
             rows = re.findall(r"(m_Local\w+): \{([^}]*)\}", block)
             pairs = [(row, *pair.split(":")) for row, words in rows for pair in words.split(",")]
-            local[own] = place({f"{row}.{key.strip()}": float(value) for row, key, value in pairs})
+            local[own] = _moved({f"{row}.{key.strip()}": float(value) for row, key, value in pairs})
             above[own] = father[1]
     for kind, _, block in blocks:
         if kind != "1001":
@@ -341,12 +336,51 @@ def prefab(job: Job) -> Placed:
             continue
         changes = re.findall(r"propertyPath: (m_Local(?:Pos|Rot|Sca)\S+)\s+value: (\S+)", block)
         frame, (at,) = (
-            place({k: float(v) for k, v in changes}),
+            _moved({k: float(v) for k, v in changes}),
             re.findall(r"m_TransformParent: \{fileID: (-?\d+)", block),
         )
         while at in local:
             frame, at = local[at] @ frame, above[at]
         yield files[0].name.split(".")[0], _mesh(files[0].with_suffix("")), mirror @ frame @ mirror
+
+
+def nested(job: Job) -> Placed:
+    """FBX files of one mesh each that a Unity prefab has instances of, one below another; Y up. The files' unit is a
+    metre there; a mesh is turned as its own node is not, since the instance's turn replaces the node's."""
+    text = job.file(".prefab").read_text(encoding="utf-8")
+    blocks = re.findall(r"^--- !u!(\d+) &(-?\d+)( stripped)?\n(.*?)(?=^--- |\Z)", text, re.MULTILINE | re.DOTALL)
+    meta = [(f.read_text(encoding="utf-8"), f.with_suffix("")) for f in job.files if f.suffix == ".meta"]
+    files = {re.findall(r"guid: (\w+)", told)[0]: file for told, file in meta}
+    mirror = np.diag([-1.0, 1.0, 1.0, 1.0])
+    upright = np.array([[100.0, 0, 0], [0, 0, -100.0], [0, 100.0, 0]])
+    above: dict[str, str] = {}
+    local: dict[str, np.ndarray] = {}
+    meshes: dict[str, tuple[Path, str]] = {}
+    for kind, own, stripped, block in blocks:
+        if kind == "4" and stripped:
+            (above[own],), local[own] = re.findall(r"m_PrefabInstance: \{fileID: (-?\d+)", block), np.eye(4)
+        elif kind == "4":
+            rows = re.findall(r"(m_Local\w+): \{([^}]*)\}", block)
+            pairs = [(row, *pair.split(":")) for row, words in rows for pair in words.split(",")]
+            local[own] = _moved({f"{row}.{key.strip()}": float(value) for row, key, value in pairs})
+            (above[own],) = re.findall(r"m_Father: \{fileID: (-?\d+)", block)
+        elif kind == "1001":
+            changes = re.findall(r"propertyPath: (m_Local(?:Pos|Rot|Sca)\S+)\s+value: (\S+)", block)
+            local[own] = _moved({key: float(value) for key, value in changes})
+            (above[own],) = re.findall(r"m_TransformParent: \{fileID: (-?\d+)", block)
+            (source,) = re.findall(r"m_SourcePrefab: \{fileID: \d+, guid: (\w+)", block)
+            names = re.findall(r"propertyPath: m_Name\s+value: (.+)", block)
+            meshes[own] = files[source], (names[0].strip() if names else files[source].stem)
+    taken: Counter[str] = Counter()
+    for own, (file, name) in meshes.items():
+        frame, at = local[own], above[own]
+        while at in local:
+            frame, at = local[at] @ frame, above[at]
+        taken[name] += 1
+        read = read_cad(file)
+        (part,) = read.parts
+        mesh = trimesh.Trimesh(read.points_of(part) @ upright.T, read.shape_of(part).mesh.triangles, process=False)
+        yield name if taken[name] == 1 else f"{name}_{taken[name]}", mesh, mirror @ frame @ mirror
 
 
 def summed(job: Job) -> Placed:
@@ -432,6 +466,13 @@ def _place(turn: Rotation, shift: Sequence[float] | np.ndarray) -> np.ndarray:
     place[:3, :3] = turn.as_matrix()
     place[:3, 3] = shift
     return place
+
+
+def _moved(told: dict[str, float]) -> np.ndarray:
+    """A Unity transform, from what a prefab tells of it."""
+    turn = Rotation.from_quat([told.get(f"m_LocalRotation.{k}", float(k == "w")) for k in "xyzw"])
+    moved = _place(turn, [told.get(f"m_LocalPosition.{k}", 0.0) for k in "xyz"])
+    return moved @ np.diag([*(told.get(f"m_LocalScale.{k}", 1.0) for k in "xyz"), 1.0])
 
 
 def _origin(element: ET.Element | None) -> np.ndarray:

@@ -23,7 +23,7 @@ from yellowiron.alignment.fusion.votes import _anywhere
 from yellowiron.alignment.labelling.confidence import REVIEW
 from yellowiron.alignment.labelling.place import Place
 from yellowiron.alignment.labelling.track_places import no_surer_than_frames
-from yellowiron.alignment.pipeline import align
+from yellowiron.alignment.readings import align
 from yellowiron.model.specification import Specifications
 
 

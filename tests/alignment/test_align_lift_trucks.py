@@ -7,7 +7,7 @@ import pytest
 from kit.machines.lift_trucks import lift_truck
 from kit.machines.synthetic import disguise
 from kit.machines.unseen import found_whole
-from yellowiron.alignment.pipeline import align
+from yellowiron.alignment.readings import align
 from yellowiron.library import load_template
 from yellowiron.model.specification import Specifications
 

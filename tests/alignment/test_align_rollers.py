@@ -13,7 +13,7 @@ from kit.machines.yoke_rollers import yoke_roller
 from yellowiron import library
 from yellowiron.alignment.features.solids import size_of, solids_of
 from yellowiron.alignment.features.wheels import rolling_of
-from yellowiron.alignment.pipeline import align
+from yellowiron.alignment.readings import align
 from yellowiron.model.specification import Specifications
 
 

@@ -15,7 +15,7 @@ from kit.machines.cranes import crane
 from kit.machines.synthetic import Machine
 from kit.machines.unseen import found_whole
 from yellowiron import kinematics, library
-from yellowiron.alignment.pipeline import align
+from yellowiron.alignment.readings import align
 from yellowiron.exporters import export_mjcf
 from yellowiron.exporters.geometry import Geometry
 from yellowiron.model.alignment import Alignment

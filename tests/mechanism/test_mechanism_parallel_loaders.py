@@ -17,7 +17,7 @@ from kit.machines.partly_drawn import without
 from kit.machines.synthetic import disguise
 from kit.machines.unseen import found_whole
 from yellowiron.alignment.assignment.answer import Answer, shows_what_is_special
-from yellowiron.alignment.pipeline import align
+from yellowiron.alignment.readings import align
 from yellowiron.kinematics import ClosedChain
 from yellowiron.library import load_template
 from yellowiron.model.mechanism import Mechanism

@@ -12,7 +12,7 @@ from scipy.optimize import brentq
 from kit.machines.partly_drawn import without
 from kit.machines.rocking_dozers import rocking_dozer
 from kit.machines.unseen import found_whole
-from yellowiron.alignment.pipeline import align
+from yellowiron.alignment.readings import align
 from yellowiron.kinematics import ClosedChain, measure
 from yellowiron.library import Documents, load_template
 from yellowiron.model.mechanism import Mechanism

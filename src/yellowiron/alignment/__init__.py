@@ -4,7 +4,8 @@ In: an `Assembly`, a `Template`, `Specifications`, and an earlier `Alignment` th
 of a machine of no known type, a `FoundMachine`. Each sub-package builds on those before it: `features` (parts and
 contacts), `structure` (rigid clusters, hinges), `assignment` (which cluster is which body), `labelling` (every part's
 role). `axes` (where joints are that no pin shows) needs `features` only, `discovery` the first two, `files` only the
-model. `pipeline` is the whole way, in order; `tolerances` are what several of them share.
+model. `pipeline` is the whole way, in order; `readings` goes it again where what floats may be the machine's own;
+`machines`: which of what is drawn the machine is; `tolerances` are what several of them share.
 
 Findings: `ALN001` no part plays a required role · `ALN002` a joint is found but no part of its own plays its pin ·
 `ALN003` the machine's frame is partly a guess · `ALN004` the search was cut short · `ALN005` an edited role exists only
@@ -44,7 +45,7 @@ if TYPE_CHECKING:
     from yellowiron.alignment.labelling.confidence import REVIEW
     from yellowiron.alignment.labelling.halves import of_drawn
     from yellowiron.alignment.mixed_units import in_one_unit, reviewed
-    from yellowiron.alignment.pipeline import align
+    from yellowiron.alignment.readings import align
     from yellowiron.alignment.square import squared, turned_back
 
 __all__ = [
@@ -86,7 +87,7 @@ __getattr__, __dir__ = lazy_names(
     {
         "ABSENT": "files.whole",
         "REVIEW": "labelling.confidence",
-        "align": "pipeline",
+        "align": "readings",
         "as_said": "files.heard",
         "between_apart": "apart",
         "between_found": "apart",

@@ -80,13 +80,13 @@ from yellowiron.alignment.labelling.track_places import (
     without_tracks,
 )
 from yellowiron.alignment.labelling.undercut import regrounded, too_low, undercut
+from yellowiron.alignment.machines import called_machine
 from yellowiron.alignment.structure.ground_cut import parted
 from yellowiron.alignment.structure.observation import Observation, observe
 from yellowiron.alignment.tolerances import CONTACT
 from yellowiron.alignment.undrawn import undrawn
 from yellowiron.model.alignment import DECIDED, Alignment, Vector
 from yellowiron.model.assembly import Assembly
-from yellowiron.model.errors import AlignmentError
 from yellowiron.model.geometry import Floats
 from yellowiron.model.rows import as_drawn
 from yellowiron.model.specification import Specifications
@@ -116,27 +116,27 @@ HEARD = 0.9
 """Names trusted so far go before contacts that they contradict and that did not find the whole machine."""
 
 
-def align(
+@dataclass(frozen=True, eq=False)
+class Reading:
+    """What was `found` where the parts `apart` (of the model without copies, `single`) are none of the machine's; what
+    the judge makes of it (`score`), None where contacts found the machine."""
+
+    found: Alignment
+    single: Assembly
+    apart: Mapping[str, float]
+    score: float | None
+
+
+def read(
     assembly: Assembly,
     template: Template,
     specifications: Specifications,
-    *,
-    edits: Alignment | None = None,
-    choices: Mapping[str, str] | None = None,
-    square: Floats | None = None,
-) -> Alignment:
-    """Roles for the parts of a CAD model.
-
-    `template` may carry variants: those `decided_by` geometry are tried and the best is taken, unless `choices` fixes
-    them. `edits` is an earlier alignment, as a person left it (`read_alignment`): its rules and the parts that were
-    `DECIDED` keep their role. `square`: how the model was turned against its file (`squared`). `AlignmentError` for an
-    assembly without parts, for an unknown choice, and for edits that name parts or roles that do not exist. The result
-    does not depend on the order or names (beyond their weight) of the parts.
-    """
-    if not assembly.parts:
-        raise AlignmentError(
-            "The CAD model has no parts", where=assembly.name, hint="Check that the file holds solids."
-        )
+    edits: Alignment | None,
+    choices: Mapping[str, str] | None,
+    square: Floats | None,
+    way: Mapping[str, float] | None,
+) -> Reading:
+    """`align` where the parts of `way` are none of the machine's: None where that is to be found out."""
     decisions, told = decided(assembly, template, edits)
     edited = {part: decision.role or "" for part, decision in decisions.items()}
     said, heard = heard_of_whole(edits, edited, assembly, template, choices or {})
@@ -146,9 +146,9 @@ def align(
     drawn = _without(assembly, bumpers)
     copies = {copy: first for copy, first in copies_of(drawn).items() if copy not in edited}
     single = _without(drawn, copies)
-    apart = separate_parts(single)
-    wanted = frozenset(part for part, role in edited.items() if role and part in apart)
-    apart = dict(separate_parts(single, wanted) if wanted else apart)
+    wanted = frozenset(part for part, role in edited.items() if role)
+    alone = way if way is not None else _apart(single, template, wanted)
+    apart = dict(alone)
     tracking = _without(single, apart)
     tracked, tracks = tracks_in(tracking, template)
     machine = _without(tracking, set(tracked.values()))
@@ -288,7 +288,18 @@ def align(
         found = replace(found, findings=(*found.findings, *against))
     drawn_axles = as_drawn(whole, {p.body for p in found.parts if p.body is not None})
     aside = {*fittings, *on_further.places}
-    return _with_all_axes(found, _without(assembly, aside), drawn_axles, answer, observation, frame)
+    found = _with_all_axes(found, _without(assembly, aside), drawn_axles, answer, observation, frame)
+    score = judged.score if judged is not None and answer.judged is not None else None
+    return Reading(found, single, alone, score)
+
+
+def _apart(assembly: Assembly, template: Template, wanted: frozenset[str]) -> Mapping[str, float]:
+    """The parts that stand apart from the machine, or from the one of several that is called so."""
+    apart = separate_parts(assembly)
+    kept = wanted & apart.keys()
+    apart = separate_parts(assembly, kept) if kept else apart
+    called = called_machine(assembly, template, apart, wanted)
+    return apart if called is None else called
 
 
 def _with_all_axes(

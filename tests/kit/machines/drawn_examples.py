@@ -21,7 +21,7 @@ from kit.machines.defects import on_triangles
 from kit.machines.forklifts import truth_of
 from kit.machines.nameless import write_nameless
 from yellowiron import library, specs, stages
-from yellowiron.alignment.pipeline import align
+from yellowiron.alignment.readings import align
 from yellowiron.cad.mesh.measures import content_key
 from yellowiron.model.alignment import Alignment
 from yellowiron.model.geometry import Shape

@@ -8,7 +8,7 @@ from dataclasses import replace
 from kit.machines.defects import on_triangles
 from kit.machines.synthetic import Machine, disguise
 from yellowiron import library
-from yellowiron.alignment.pipeline import align
+from yellowiron.alignment.readings import align
 from yellowiron.model.alignment import Alignment
 from yellowiron.model.specification import Specifications
 

@@ -7,6 +7,7 @@ Names add weight to what geometry allows; they never overrule it. What a word me
 from __future__ import annotations
 
 import functools
+import itertools
 import json
 import re
 import unicodedata
@@ -15,6 +16,7 @@ from collections.abc import Collection, Iterable, Iterator, Mapping, Sequence
 from dataclasses import dataclass, field, replace
 from importlib import resources
 
+import networkx
 from rapidfuzz.distance import DamerauLevenshtein
 
 from yellowiron.model.assembly import Part
@@ -51,12 +53,17 @@ _ELIDED = re.compile(r"\b[dl]['\u2019](?=\w)", re.IGNORECASE)
 _HIGH = re.compile(r"[\x80-\xff\u0152-\u2122]{2,}")
 _COUNT = re.compile(r"[\s_#.-]*\d*$")
 _LINK = re.compile(r"link[\W\d_]*$", re.IGNORECASE)
+_SECTION = re.compile(r"(?<!\d)0?[1-9]$")
+_FIRST = re.compile(r"^.*?(?:[A-Z]+(?![a-z])|[A-Z]?[a-z]+|$)[\W_]*")
 LINKS = 4
 """Of so many names that end in "link", and of most of a model's, it is a robot description's word for a body."""
 _SIDES = {"l": "left", "r": "right"}
 _OPPOSED = (("left", "right"), ("front", "rear"), ("barrel", "rod"))
 _PLACES = frozenset({"left", "right", "front", "rear"})
 """They tell one body from another, and are no name of any."""
+SOLIDS, NAMES = 20, 3
+"""So many parts of one name are the solids of a mesh that is all of a machine; of so many different names what stands
+before all is the machine's."""
 _SMALL = frozenset(
     ("a", "an", "and", "d", "da", "das", "de", "del", "den", "der", "des", "die", "du", "e", "el", "et", "for", "la",
      "las", "le", "les", "los", "of", "the", "und", "y")
@@ -373,6 +380,29 @@ def described(parts: tuple[Part, ...]) -> tuple[Part, ...]:
     return tuple(replace(p, name=_without_link(p.name), path=tuple(map(_without_link, p.path))) for p in parts)
 
 
+def _without_machine(parts: tuple[Part, ...]) -> tuple[Part, ...]:
+    """The parts, without what is put before every one's own name, as `Dumper_` before `Dumper_Body` and
+    `Dumper_Wheel1`, and without the name of all of them where they are the solids of one mesh: it is the machine's."""
+    said = [tokens(p.name) for p in parts]
+    if len(parts) >= SOLIDS and len({(*p.path, p.name) for p in parts}) == 1:
+        return tuple(replace(p, name="") for p in parts)
+    if len({tuple(own) for own in said}) < NAMES:
+        return parts
+    before = list(itertools.takewhile(lambda words: len(set(words)) == 1, zip(*said, strict=False)))
+    shared = [words[0] for words in before]
+    if not shared or set(shared) & _PLACES or any(len(own) == len(shared) for own in said):
+        return parts
+    return tuple(replace(p, name=_without_first(p.name, len(shared))) for p in parts)
+
+
+def _without_first(name: str, count: int) -> str:
+    """A name without its first words, as `tokens` counts them; the name itself where they are not plain to see."""
+    left = name
+    while len(tokens(left)) > len(tokens(name)) - count:
+        left = _FIRST.sub("", left)
+    return left if tokens(left) == tokens(name)[count:] else name
+
+
 def _are_links(names: Collection[str]) -> bool:
     links = sum(_is_link(name) for name in names)
     return links >= LINKS and 2 * links > len(names)
@@ -391,7 +421,7 @@ def name_scores(parts: tuple[Part, ...], template: Template, whole: Template | N
     roles). Names of assemblies that hold all parts say nothing, nor does a word that most parts' own names have, or
     most assemblies'; one that many parts have says less.
     `whole`: a template with further bodies, of which the template's nearest above is meant."""
-    parts = described(parts)
+    parts = _without_machine(described(parts))
     words = vocabulary(whole or template)
     roles = exact_roles(template)
     shared = 0
@@ -418,4 +448,30 @@ def name_scores(parts: tuple[Part, ...], template: Template, whole: Template | N
         if body is not None:
             found[body] = EXACT
         scores.append(found)
-    return scores
+    return _any_section(scores, parts, whole or template)
+
+
+def _any_section(scores: list[dict[str, float]], parts: Sequence[Part], template: Template) -> list[dict[str, float]]:
+    """The scores, those of what is numbered as the sections of a boom or a mast are (`BoomSection1` … `BoomSection4`)
+    alike for every section that its name speaks of: which it is, its name does not tell."""
+    numbered: dict[str, set[str]] = {}
+    for part in parts:
+        if (end := _SECTION.search(part.name)) is not None:
+            numbered.setdefault(part.name[: end.start()], set()).add(end[0])
+    several = {stem + n for stem, numbers in numbered.items() if len(numbers) > 1 for n in numbers}
+    groups = sections_of(template) if several else ()
+    found = []
+    for part, said in zip(parts, scores, strict=True):
+        best = max(said, key=lambda b: said[b], default="") if part.name in several else ""
+        alike = next((group & said.keys() for group in groups if best in group), set[str]())
+        found.append(said | dict.fromkeys(sorted(alike), said.get(best, 0.0)))
+    return found
+
+
+@remembered
+def sections_of(template: Template) -> tuple[frozenset[str], ...]:
+    """The bodies of arms that slide in each other, each boom or mast by itself."""
+    arms = {role.name for role in template.roles if role.kind == "arm"}
+    pairs = [tuple(str(b) for b in template.bodies_of(j)) for j in template.joints if j.type == "prismatic"]
+    graph = networkx.Graph([pair for pair in pairs if set(pair) <= arms])
+    return tuple(frozenset(group) for group in sorted(networkx.connected_components(graph), key=sorted))

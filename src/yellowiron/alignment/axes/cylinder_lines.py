@@ -28,6 +28,8 @@ in so many …"""
 WITHIN, WITHOUT, WIDE = 0.7, 1.1, 4.0
 """… none nearer to the line than this share of the barrel's radius, some farther than this, and none than this."""
 
+BY_LENGTH = "the length of its parts"
+
 
 def cylinder_line(barrel: Body | None, rod: Body | None) -> Line | None:
     """The line of a cylinder of which both bodies or one of them is drawn; None for neither."""
@@ -46,7 +48,7 @@ def cylinder_line(barrel: Body | None, rod: Body | None) -> Line | None:
         how = "round faces along it"
     if line is None:
         line = _by_length(drawn, guess)
-        how = "the length of its parts"
+        how = BY_LENGTH
     origin, direction, across, angle = line
     if barrel is not None and rod is not None:
         ahead = float((np.median(rod.samples, axis=0) - np.median(barrel.samples, axis=0)) @ direction)

@@ -65,11 +65,18 @@ def linkages_of(template: Template, bodies: Mapping[str, Body]) -> list[tuple[tu
 
 
 def is_upright(linkage: Sequence[JointTemplate], template: Template) -> bool:
-    """Whether a linkage steers or slews: one of its hinges joins two frames, or it moves wheels."""
-    if steering_joints(template) & {j.name for j in linkage}:
+    """Whether a linkage steers or slews: one of its hinges joins two frames or is upright by the template, or it moves
+    wheels."""
+    if steering_joints(template) & {j.name for j in linkage} or _told(linkage) == "vertical":
         return True
     frames = {r.name for r in template.roles if r.kind == "frame" and r.rigid}
     return any(j.type == "revolute" and set(template.bodies_of(j)) <= frames for j in linkage)
+
+
+def _told(linkage: Sequence[JointTemplate]) -> str | None:
+    """The machine's direction that the template gives the hinges of a linkage, by one of them."""
+    told = {j.direction for j in linkage if j.type == "revolute" and j.direction is not None}
+    return told.pop() if len(told) == 1 else None
 
 
 def direction_of(
@@ -78,7 +85,7 @@ def direction_of(
 ) -> Direction:  # fmt: skip
     """The direction of a linkage's hinges."""
     steering = is_upright(linkage, template)
-    expected = frame.up if steering else frame.left
+    expected = frame.up if steering else frame.forward if _told(linkage) == "lengthwise" else frame.left
     slides = [lines[j.name] for j in linkage if j.name in lines]
     names = sorted({str(b) for j in linkage for b in template.bodies_of(j)})
     ways, weights = _votes([bodies[n] for n in names if n in bodies], slides)

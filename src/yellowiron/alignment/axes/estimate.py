@@ -6,11 +6,12 @@ import math
 from collections.abc import Mapping, Sequence
 from dataclasses import replace
 
+import networkx
 import numpy as np
 from numpy.typing import NDArray
 
 from yellowiron.alignment.axes.bodies import Body, bodies_of
-from yellowiron.alignment.axes.cylinder_lines import cylinder_line, trunnion_of
+from yellowiron.alignment.axes.cylinder_lines import BY_LENGTH, cylinder_line, trunnion_of
 from yellowiron.alignment.axes.directions import (
     Direction,
     as_found,
@@ -37,6 +38,9 @@ TWIN_BETTER = 3.0
 _UNSEEN, _LEANS = 0.5, math.radians(5.0)
 """How far a slideway that is not drawn may be beside the middle of what slides on it, in widths of that, and how far it
 may lean: masts tilt by 5° to 12°, and are drawn upright as a rule."""
+_FAR, _FAR_BY_LENGTH = math.cos(math.radians(45.0)), math.cos(math.radians(15.0))
+"""A slide that is this far from what the template says slides along that all the same; masts lean by less."""
+_TOLD = "the type's own direction"
 _NARROW = 4.0
 """What is so many times longer than wide slides along its length."""
 _NEARLY, _LEANING = 0.7, 3.0
@@ -77,6 +81,7 @@ def estimate_axes(
     lines = _lines(template, bodies, linkages)
     frame = completed(frame or Frame(), linkages, template, bodies, lines)
     lines |= _lines_up(template, bodies, frame)
+    lines = _parallel_sections(_lines_told(lines, template, bodies, frame), template)
     found: dict[str, AxisEstimate] = {}
     planar: list[tuple[tuple[JointTemplate, ...], Direction, dict[str, list[Candidate]]]] = []
     for linkage in (joints for joints, flat in groups if flat):
@@ -154,6 +159,44 @@ def _lines_up(template: Template, bodies: Mapping[str, Body], frame: Frame) -> d
             continue
         width = float(np.percentile(np.linalg.norm(off - np.outer(off @ frame.up, frame.up), axis=1), 60))
         found[joint.name] = Line(middle, frame.up, _UNSEEN * width, _LEANS, width, "how its machine stands")
+    return found
+
+
+def _lines_told(
+    lines: Mapping[str, Line], template: Template, bodies: Mapping[str, Body], frame: Frame
+) -> dict[str, Line]:
+    """The lines, those along what the template says that are far from what is drawn: a beam is wider than it is long,
+    and a carriage than it is high."""
+    ways = {"lateral": frame.left, "vertical": frame.up, "lengthwise": frame.forward}
+    found = dict(lines)
+    for name, line in lines.items():
+        joint = template.joint(name)
+        told = ways.get(joint.direction or "")
+        limit = _FAR_BY_LENGTH if line.how == BY_LENGTH else _FAR
+        if told is None or abs(float(line.direction @ told)) > limit:
+            continue
+        moved = bodies.get(str(template.bodies_of(joint)[1]))
+        origin = np.median(moved.samples, axis=0) if moved is not None else line.origin
+        found[name] = Line(origin, told, max(line.across, _UNSEEN * line.width), _LEANS, line.width, _TOLD)
+    return found
+
+
+def _parallel_sections(lines: Mapping[str, Line], template: Template) -> dict[str, Line]:
+    """The lines, those of sections that slide in each other, a mast's or a boom's, as the best known of them points."""
+    kinds = {r.name: r.kind for r in template.roles}
+    pairs = {n: tuple(str(b) for b in template.bodies_of(template.joint(n))) for n in lines}
+    sections = networkx.Graph(
+        [(*pair, {"slide": n}) for n, pair in pairs.items() if not {kinds[b] for b in pair} & {"barrel", "rod"}]
+    )
+    found = dict(lines)
+    for group in sorted(networkx.connected_components(sections), key=sorted):
+        slides = sorted(str(n) for *_, n in sections.subgraph(group).edges(data="slide"))
+        best = min((lines[n] for n in slides), key=lambda line: round(line.angle, 9))
+        for name in slides:
+            own = lines[name]
+            if own.angle > best.angle:
+                way = best.direction if float(best.direction @ own.direction) >= 0.0 else -best.direction
+                found[name] = replace(own, direction=way, angle=best.angle, how=f"another section's: {best.how}")
     return found
 
 

@@ -39,7 +39,7 @@ def separate_parts(
     high = np.array([p.max(axis=0) for p in points])
     main = np.ones(len(parts), dtype=bool)
     while True:
-        group = _groups(low, high, FAR * _size(low[main], high[main]))
+        group = groups(low, high, FAR * size_of_boxes(low[main], high[main]))
         mine = _largest(group, low, high)
         if mine.sum() >= main.sum():
             group, mine = _without_neighbours(group, main, low, high)
@@ -49,7 +49,7 @@ def separate_parts(
     kept = {g for g, p in zip(group.tolist(), parts, strict=True) if p.id in wanted}
     main = main | np.isin(group, sorted(kept))
     return found | {
-        parts[i].id: float(_gaps(low[i], high[i], low[main], high[main]).min()) for i in np.flatnonzero(~main)
+        parts[i].id: float(gaps(low[i], high[i], low[main], high[main]).min()) for i in np.flatnonzero(~main)
     }
 
 
@@ -58,10 +58,10 @@ def _without_neighbours(
 ) -> tuple[NDArray[np.int64], NDArray[np.bool_]]:
     """The groups, and (n,) the machine among them, where another machine or a trailer is near it for their common size
     but not for its own; else as they are."""
-    core = _largest(_groups(low, high, 0.5 * FAR * _size(low[main], high[main])), low, high)
-    own = FAR * _size(low[core], high[core])
+    core = _largest(groups(low, high, 0.5 * FAR * size_of_boxes(low[main], high[main])), low, high)
+    own = FAR * size_of_boxes(low[core], high[core])
     for limit, least in ((TRAILED * own, 1.0), (own, MACHINE * main.sum())):
-        finer = _groups(low, high, limit)
+        finer = groups(low, high, limit)
         mine = _largest(finer, low, high)
         others = [int((finer == g).sum()) for g in set(finer[main & ~mine].tolist())]
         if max(others, default=0) >= least:
@@ -69,7 +69,7 @@ def _without_neighbours(
     return group, main
 
 
-def _size(low: Floats, high: Floats) -> float:
+def size_of_boxes(low: Floats, high: Floats) -> float:
     """The diagonal of boxes, metres."""
     return float(np.linalg.norm(high.max(axis=0) - low.min(axis=0)))
 
@@ -78,17 +78,17 @@ def _largest(group: NDArray[np.int64], low: Floats, high: Floats) -> NDArray[np.
     """(n,) the largest of the groups that have at least half as many parts as any."""
     counts = {g: int((group == g).sum()) for g in set(group.tolist())}
     many = [g for g, count in counts.items() if 2 * count >= max(counts.values())]
-    best = max(many, key=lambda g: (round(_size(low[group == g], high[group == g]), 6), counts[g], -g))
+    best = max(many, key=lambda g: (round(size_of_boxes(low[group == g], high[group == g]), 6), counts[g], -g))
     return np.asarray(group == best)
 
 
-def _gaps(low: Floats, high: Floats, lows: Floats, highs: Floats) -> Floats:
+def gaps(low: Floats, high: Floats, lows: Floats, highs: Floats) -> Floats:
     """(n,) distances of one box, (3,) corners, from others, (n, 3) corners; metres."""
     apart = np.maximum(0.0, np.maximum(lows - high, low - highs))
     return np.asarray(np.sqrt(np.einsum("ij,ij->i", apart, apart)))
 
 
-def _groups(low: Floats, high: Floats, limit: float) -> NDArray[np.int64]:
+def groups(low: Floats, high: Floats, limit: float) -> NDArray[np.int64]:
     """(n,) numbers of the groups of boxes, of which each is within `limit` of another: that of its first box."""
     group = np.full(len(low), -1, dtype=np.int64)
     free = np.arange(len(low))
@@ -98,7 +98,7 @@ def _groups(low: Floats, high: Floats, limit: float) -> NDArray[np.int64]:
         group[start] = start
         while front and len(free):
             i = front.pop()
-            near = _gaps(low[i], high[i], low[free], high[free]) <= limit
+            near = gaps(low[i], high[i], low[free], high[free]) <= limit
             if near.any():
                 group[free[near]] = start
                 front += free[near].tolist()

@@ -29,6 +29,9 @@ SEVERAL = 3
 """A name that so many pieces bear, but for its number, is an assembly's: two may be the left and the right one."""
 _NUMBERED = re.compile(r"(?<!\d)0?[2-9]$")
 """A name that ends in a number as sections are given; what a modelling tool adds has three digits."""
+PIN = 0.35
+"""A pin, or a shaft, is shorter than this share of the machine's size: what lies in its like and is longer may be the
+section of a boom."""
 PARTS = (1, 2)
 """What begins so many joints from the root may be all that is drawn."""
 
@@ -104,8 +107,9 @@ def evidence_of(
     leads = tuple(leading(pieces, observation.size, clearly_named(pieces, scores) if trust > 0.0 else {}))
     bars = observation.evidence[-1].fasteners if observation.evidence else frozenset()
     pins = frozenset(
-        k for k, p in enumerate(pieces) if not p.kind and p.members <= bars and not p.members & edited.keys()
-    )
+        k for k, p in enumerate(pieces)
+        if not p.kind and p.members <= bars and not p.members & edited.keys() and p.spread[0] < PIN * observation.size
+    )  # fmt: skip
     borne = Counter(name for names in called for name in names)
     shared = frozenset(k for k, names in enumerate(called) if any(borne[name] > 1 for name in names))
     hung = borne_by_others(tuple(s.part for s in observation.solids), template)

@@ -10,6 +10,7 @@ import numpy as np
 from yellowiron.alignment.assignment.answer import Answer, Judged, open_choices
 from yellowiron.alignment.assignment.cp_sat import MISSING_WEIGHT, Solution
 from yellowiron.alignment.assignment.directions import ALIKE, NOT_ACROSS, linkages_of
+from yellowiron.alignment.assignment.names import sections_of
 from yellowiron.alignment.assignment.search import machine_of
 from yellowiron.alignment.assignment.sides import twin_role
 from yellowiron.alignment.facing import UNTOLD, Facing
@@ -17,7 +18,7 @@ from yellowiron.alignment.features.solids import Solid
 from yellowiron.alignment.fusion.annealing import CHAINS, HOT, SWEEPS, WARM, WARM_UP, against, labelled, leads
 from yellowiron.alignment.fusion.best import CLEAR_LEAD, Best, field_of_leading, labels_in, lacking, standing_for
 from yellowiron.alignment.fusion.bonds import Bond, out_of_line
-from yellowiron.alignment.fusion.evidence import Evidence, across, evidence_of, ways_of
+from yellowiron.alignment.fusion.evidence import PIN, Evidence, across, evidence_of, ways_of
 from yellowiron.alignment.fusion.interposed import interposed
 from yellowiron.alignment.fusion.judge import field_of, score_of, weighed, weights
 from yellowiron.alignment.fusion.limbs import on_limbs
@@ -156,7 +157,10 @@ def fused(
     contacts = max(_unsaid(found, way) for found, way in of_contacts)
     pieces, trust = evidence.pieces, evidence.trust
     judged = _judged(best, evidence, doubtful)
-    judged = {i: what for i, what in judged.items() if not _is_pin(i, what, observation, best.template)}
+    sections = {i for p in pieces if p.spread[0] >= PIN * observation.size for i in p.members}
+    judged = {
+        i: what for i, what in judged.items() if i in sections or not _is_pin(i, what, observation, best.template)
+    }
     judged |= _by_name_alone(observation, pieces, scores, trust, judged)
     judged = judged or _all_root(pieces, best.template)
     answer = replace(_answer(observation, best, judged, answer, evidence.stance), open_choices=as_good)
@@ -276,7 +280,7 @@ def _judged(best: Best, evidence: Evidence, doubtful: frozenset[int]) -> dict[in
     unsure = beside_lost_arms(best.template, played)
     contrary = against(best.field, best.labels, _told([best.votes[k] for k in chief], bodies))
     alone = _one_name(evidence)
-    sections = _sections(best.template)
+    sections = frozenset[str]().union(*sections_of(best.template))
     found: dict[int, Judged] = {}
     for k, piece in enumerate(pieces):
         if labels[k] == none:
@@ -321,13 +325,6 @@ def _with_twins(label_of: Mapping[int, int], best: Best, bonds: Sequence[Bond]) 
             if alike and bodies[label_of[other]] in best.votes[own]:
                 found[own] = label_of[other]
     return found
-
-
-def _sections(template: Template) -> set[str]:
-    """The bodies of arms that slide on each other."""
-    arms = {role.name for role in template.roles if role.kind == "arm"}
-    pairs = ({str(b) for b in template.bodies_of(j)} for j in template.joints if j.type == "prismatic")
-    return {body for pair in pairs if pair <= arms for body in pair}
 
 
 def _told(votes: Sequence[Mapping[str, Features]], bodies: Sequence[str]) -> Floats:
