@@ -440,6 +440,42 @@ def test_outrigger_beams_slide_across_the_machine_and_jacks_upright() -> None:
     assert min(abs(float(e.direction @ MACHINE.up)) for e in jacks) > 0.99
 
 
+def test_jacks_are_upright_beside_beams_that_are_known_better() -> None:
+    """Beams and jacks slide on each other as sections do, and are none."""
+    template = choose(load_template("mobile_crane"), {})
+    placed = trimesh.transformations.translation_matrix
+    items = [Occurrence("carrier", (), _block((10.0, 2.4, 0.8)), placed((0, 0, 1.2)))]
+    for name, radius, length, way, at in (
+        ("front_outrigger_beam_l", 0.1, 2.0, (1.0, 0.0, 0.0), (2.0, 0.9, 0.9)),
+        ("front_outrigger_jack_l", 0.08, 0.9, (0.0, 0.0, 1.0), (2.0, 1.9, 0.6)),
+    ):
+        bar = trimesh.creation.cylinder(radius, length, sections=32 if "beam" in name else 7)
+        turn = trimesh.transformations.rotation_matrix(0.5 * math.pi, way) if "beam" in name else np.eye(4)
+        mesh = Mesh(np.asarray(bar.vertices), np.asarray(bar.faces, dtype=np.int32))
+        items.append(Occurrence(name, (), mesh, placed(at) @ turn))
+    solids = solids_of(assemble(items, name="crane", format="synthetic", unit=1.0, path="crane.glb"))
+    found = estimate_axes(solids, {s.part.name: [s.index] for s in solids}, template, frame=MACHINE)
+    beam, jack = (next(e for n, e in found.items() if part in n) for part in ("carrier2front_outrigger", "beam_l2"))
+    assert abs(float(beam.direction @ MACHINE.left)) > 0.99
+    assert abs(float(jack.direction @ MACHINE.up)) > 0.99
+
+
+def test_a_blade_that_is_drawn_angled_slides_along_itself() -> None:
+    """Its slide is lateral by the type, on a circle that turns."""
+    template = choose(load_template("grader"), {})
+    angled = trimesh.transformations.rotation_matrix(math.radians(35.0), (0.0, 0.0, 1.0))
+    items = [
+        Occurrence(
+            "blade_carrier", (), _block((0.3, 0.4, 0.5)), trimesh.transformations.translation_matrix((0, 0, 0.9))
+        ),
+        Occurrence("moldboard", (), _block((0.2, 3.6, 0.6)), angled),
+    ]
+    solids = solids_of(assemble(items, name="grader", format="synthetic", unit=1.0, path="grader.glb"))
+    found = estimate_axes(solids, {s.part.name: [s.index] for s in solids}, template, frame=MACHINE)
+    slide = found["blade_carrier2moldboard_joint"]
+    assert abs(float(slide.direction @ angled[:3, 1])) > math.cos(math.radians(3.0))
+
+
 def test_stabilisers_turn_lengthwise_and_a_swing_post_upright() -> None:
     """A public backhoe loader's had the machine's left for an axis, to a degree: 30 → 41 of 58 joints."""
     template = load_template("backhoe_loader")
