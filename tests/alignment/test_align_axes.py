@@ -16,10 +16,11 @@ from kit.machines.excavators import any_features
 from kit.machines.synthetic import Machine
 from yellowiron.alignment.axes import AxisEstimate, Frame, estimate_axes, group, hinge_proposals
 from yellowiron.alignment.axes.cylinder_lines import cylinder_line, trunnion_of
+from yellowiron.alignment.axes.estimate import _parallel_sections
 from yellowiron.alignment.axes.outlines import fitted_circle, outline_circles
 from yellowiron.alignment.axes.pivots import pivots_of, trust_in_pivots
 from yellowiron.alignment.axes.unfound import axis_findings, unfound_axes
-from yellowiron.alignment.axes.values import Candidate, plane_of
+from yellowiron.alignment.axes.values import Candidate, Line, plane_of
 from yellowiron.alignment.features.solids import Solid, size_of, solids_of
 from yellowiron.cad.mesh import polygons
 from yellowiron.cad.mesh.assembly import Occurrence, assemble, shape_of
@@ -442,22 +443,13 @@ def test_outrigger_beams_slide_across_the_machine_and_jacks_upright() -> None:
 
 def test_jacks_are_upright_beside_beams_that_are_known_better() -> None:
     """Beams and jacks slide on each other as sections do, and are none."""
-    template = choose(load_template("mobile_crane"), {})
-    placed = trimesh.transformations.translation_matrix
-    items = [Occurrence("carrier", (), _block((10.0, 2.4, 0.8)), placed((0, 0, 1.2)))]
-    for name, radius, length, way, at in (
-        ("front_outrigger_beam_l", 0.1, 2.0, (1.0, 0.0, 0.0), (2.0, 0.9, 0.9)),
-        ("front_outrigger_jack_l", 0.08, 0.9, (0.0, 0.0, 1.0), (2.0, 1.9, 0.6)),
-    ):
-        bar = trimesh.creation.cylinder(radius, length, sections=32 if "beam" in name else 7)
-        turn = trimesh.transformations.rotation_matrix(0.5 * math.pi, way) if "beam" in name else np.eye(4)
-        mesh = Mesh(np.asarray(bar.vertices), np.asarray(bar.faces, dtype=np.int32))
-        items.append(Occurrence(name, (), mesh, placed(at) @ turn))
-    solids = solids_of(assemble(items, name="crane", format="synthetic", unit=1.0, path="crane.glb"))
-    found = estimate_axes(solids, {s.part.name: [s.index] for s in solids}, template, frame=MACHINE)
-    beam, jack = (next(e for n, e in found.items() if part in n) for part in ("carrier2front_outrigger", "beam_l2"))
-    assert abs(float(beam.direction @ MACHINE.left)) > 0.99
-    assert abs(float(jack.direction @ MACHINE.up)) > 0.99
+    crane = choose(load_template("mobile_crane"), {})
+    beam, jack = "carrier2front_outrigger_beam_l_joint", "front_outrigger_beam_l2front_outrigger_jack_l_joint"
+    lines = {
+        beam: Line(np.zeros(3), MACHINE.left, 0.001, math.radians(0.1), 0.1, "round faces along it"),
+        jack: Line(np.zeros(3), MACHINE.up, 0.05, math.radians(5.0), 0.1, "the length of its parts"),
+    }
+    assert _parallel_sections(lines, crane)[jack] is lines[jack]
 
 
 def test_a_blade_that_is_drawn_angled_slides_along_itself() -> None:
