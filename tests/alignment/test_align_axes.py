@@ -16,10 +16,11 @@ from kit.machines.excavators import any_features
 from kit.machines.synthetic import Machine
 from yellowiron.alignment.axes import AxisEstimate, Frame, estimate_axes, group, hinge_proposals
 from yellowiron.alignment.axes.cylinder_lines import cylinder_line, trunnion_of
+from yellowiron.alignment.axes.estimate import _parallel_sections
 from yellowiron.alignment.axes.outlines import fitted_circle, outline_circles
 from yellowiron.alignment.axes.pivots import pivots_of, trust_in_pivots
 from yellowiron.alignment.axes.unfound import axis_findings, unfound_axes
-from yellowiron.alignment.axes.values import Candidate, plane_of
+from yellowiron.alignment.axes.values import Candidate, Line, plane_of
 from yellowiron.alignment.features.solids import Solid, size_of, solids_of
 from yellowiron.cad.mesh import polygons
 from yellowiron.cad.mesh.assembly import Occurrence, assemble, shape_of
@@ -438,6 +439,33 @@ def test_outrigger_beams_slide_across_the_machine_and_jacks_upright() -> None:
     assert len(beams) == len(jacks) == 4
     assert min(abs(float(e.direction @ MACHINE.left)) for e in beams) > 0.99
     assert min(abs(float(e.direction @ MACHINE.up)) for e in jacks) > 0.99
+
+
+def test_jacks_are_upright_beside_beams_that_are_known_better() -> None:
+    """Beams and jacks slide on each other as sections do, and are none."""
+    crane = choose(load_template("mobile_crane"), {})
+    beam, jack = "carrier2front_outrigger_beam_l_joint", "front_outrigger_beam_l2front_outrigger_jack_l_joint"
+    lines = {
+        beam: Line(np.zeros(3), MACHINE.left, 0.001, math.radians(0.1), 0.1, "round faces along it"),
+        jack: Line(np.zeros(3), MACHINE.up, 0.05, math.radians(5.0), 0.1, "the length of its parts"),
+    }
+    assert _parallel_sections(lines, crane)[jack] is lines[jack]
+
+
+def test_a_blade_that_is_drawn_angled_slides_along_itself() -> None:
+    """Its slide is lateral by the type, on a circle that turns."""
+    template = choose(load_template("grader"), {})
+    angled = trimesh.transformations.rotation_matrix(math.radians(35.0), (0.0, 0.0, 1.0))
+    items = [
+        Occurrence(
+            "blade_carrier", (), _block((0.3, 0.4, 0.5)), trimesh.transformations.translation_matrix((0, 0, 0.9))
+        ),
+        Occurrence("moldboard", (), _block((0.2, 3.6, 0.6)), angled),
+    ]
+    solids = solids_of(assemble(items, name="grader", format="synthetic", unit=1.0, path="grader.glb"))
+    found = estimate_axes(solids, {s.part.name: [s.index] for s in solids}, template, frame=MACHINE)
+    slide = found["blade_carrier2moldboard_joint"]
+    assert abs(float(slide.direction @ angled[:3, 1])) > math.cos(math.radians(3.0))
 
 
 def test_stabilisers_turn_lengthwise_and_a_swing_post_upright() -> None:

@@ -320,6 +320,12 @@ def test_what_stands_before_every_name_is_the_machines() -> None:
     assert name_scores(two, template) != name_scores(tuple(part(name) for name in ("Body", "Wheel")), template)
 
 
+def test_names_of_any_letters_lose_their_first_words_or_keep_them(digger: Template) -> None:
+    """A name with line breaks before its words had no end."""
+    odd = ("Machine\n\nBoom", "\n\nMachine Arm", "Machine größe 1", "Machine_\u52a8\u81c2 bucket")
+    assert len(name_scores(tuple(part(name) for name in odd), digger)) == len(odd)
+
+
 def test_a_side_before_every_name_is_a_side(digger: Template) -> None:
     named = tuple(part(f"left {name}") for name in ("track frame", "boom cylinder", "sprocket"))
     assert max(name_scores(named, digger)[1], key=name_scores(named, digger)[1].__getitem__).endswith("_l")

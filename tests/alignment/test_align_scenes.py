@@ -11,8 +11,9 @@ from kit.machines.defects import drawn
 from kit.machines.solids import box, tube
 from kit.machines.synthetic import Machine
 from yellowiron.alignment import align
+from yellowiron.alignment.assignment import unit_scale
 from yellowiron.alignment.features.separate_parts import separate_parts
-from yellowiron.alignment.machines import called_machine, with_floating
+from yellowiron.alignment.machines import apart_from, with_floating
 from yellowiron.cad.mesh.assembly import Occurrence, assemble
 from yellowiron.library import load_template
 from yellowiron.model.assembly import Assembly
@@ -42,8 +43,7 @@ def test_of_several_machines_the_one_that_is_called_so_is_read(first: str) -> No
     scene, count = _scene(first, "Vehicle_02")
     apart = separate_parts(scene)
     assert sum(p.path == (first,) for p in scene.parts if p.id in apart) == count, "nearness takes the larger one"
-    called = called_machine(scene, load_template("excavator"), apart, ())
-    assert called is not None
+    called = apart_from(scene, load_template("excavator"))
     assert {p.path[0] for p in scene.parts if p.id in called} == {"Vehicle_02"}
     assert min(called.values()) > 1.0
 
@@ -51,7 +51,26 @@ def test_of_several_machines_the_one_that_is_called_so_is_read(first: str) -> No
 @pytest.mark.parametrize("names", [("Vehicle_01", "Vehicle_02"), ("Excavator_01", "Excavator_02")])
 def test_names_that_do_not_tell_leave_it_to_nearness(names: tuple[str, str]) -> None:
     scene, _ = _scene(*names)
-    assert called_machine(scene, load_template("excavator"), separate_parts(scene), ()) is None
+    assert apart_from(scene, load_template("excavator")) == separate_parts(scene)
+
+
+def test_a_part_that_a_person_gave_a_role_is_the_machines_whatever_is_called_so() -> None:
+    scene, _ = _scene("Excavator_01", "Vehicle_02")
+    said = frozenset({next(p.id for p in scene.parts if p.path == ("Vehicle_02",))})
+    assert apart_from(scene, load_template("excavator"), said).keys() == separate_parts(scene).keys()
+
+
+def test_of_several_machines_the_one_that_is_called_so_is_aligned_and_measured() -> None:
+    """The larger one had been read, whatever was asked for, and the model put in another unit by its length."""
+    small, large = _blocks(floating=0.0), drawn("loader", 3)
+    items = [*_placed(small, "Telehandler", np.zeros(3)), *_placed(large, "Vehicle", np.array([0.0, 20.0, 0.0]), 2.0)]
+    scene = assemble(items, name="scene", format="synthetic", unit=1.0, path="scene.glb")
+    template = load_template("telehandler")
+    found = {p.part: p.body for p in align(scene, template, Specifications()).parts}
+    bodies = {node: {found[p.id] for p in scene.parts if p.path == (node,)} for node in ("Telehandler", "Vehicle")}
+    assert bodies["Vehicle"] == {None}
+    assert unit_scale._extent(scene, template) < 8.0
+    assert {"chassis", "carriage", "front_wheel_l"} <= bodies["Telehandler"]
 
 
 def _blocks(*, floating: float) -> Machine:

@@ -7,7 +7,8 @@ import pytest
 import trimesh
 
 from yellowiron.alignment import align
-from yellowiron.alignment.assignment.names import name_scores, sections_of
+from yellowiron.alignment.assignment.directions import sections_of
+from yellowiron.alignment.assignment.names import name_scores
 from yellowiron.alignment.fusion.evidence import _NUMBERED
 from yellowiron.cad.mesh.assembly import Occurrence, assemble
 from yellowiron.library import load_template

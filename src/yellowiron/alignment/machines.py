@@ -10,15 +10,13 @@ from collections.abc import Collection, Mapping, Sequence
 
 import numpy as np
 
-from yellowiron.alignment.features.separate_parts import gaps, groups, size_of_boxes
+from yellowiron.alignment.features.separate_parts import gaps, groups, separate_parts, size_of_boxes
 from yellowiron.alignment.tolerances import FAR
 from yellowiron.model.assembly import Assembly, Part
 from yellowiron.model.geometry import Floats
 from yellowiron.model.specification import fold
 from yellowiron.model.template import ITSELF, Template
 
-TOUCHING = 1e-6
-"""The distance of another object whose box touches the machine's, metres: 0 is the ground's."""
 MUCH = 0.02
 """What floats and has less than this share of the surface makes no other machine of the rest."""
 LOW = 0.05
@@ -29,9 +27,17 @@ CALLED = 0.5
 """What is called a machine of the type is it if this share of its surface is called so."""
 
 
-def called_machine(
-    assembly: Assembly, template: Template, apart: Mapping[str, float], wanted: Collection[str]
-) -> dict[str, float] | None:
+def apart_from(assembly: Assembly, template: Template, wanted: frozenset[str] = frozenset()) -> Mapping[str, float]:
+    """The parts that are no part of the machine, which is the one of several that is called a machine of the type, else
+    what stands together (`separate_parts`). `wanted` parts are of it: a person said so."""
+    apart = separate_parts(assembly)
+    kept = wanted & apart.keys()
+    apart = separate_parts(assembly, kept) if kept else apart
+    called = _called_apart(assembly, template, apart) if not wanted else None
+    return apart if called is None else called
+
+
+def _called_apart(assembly: Assembly, template: Template, apart: Mapping[str, float]) -> dict[str, float] | None:
     """What is no part of the machine, where one of several groups that stand apart from each other is called a machine
     of the type and no other is; None where names do not tell it from `apart`."""
     words = {fold(w) for words in template.words.get(ITSELF, {}).values() for w in words}
@@ -41,7 +47,11 @@ def called_machine(
     found = [group for group in (main, *_beside(assembly, apart)) if _is_called(assembly, group, words)]
     if len(found) != 1 or found[0] is main or _surface(assembly, found[0]) < MACHINE * _surface(assembly, main):
         return None
-    return _without(assembly, {p.id for p in found[0]} | set(wanted), apart)
+    own = _boxes(assembly, found[0])
+    kept = {p.id for p in found[0]}
+    rest = [p for p in there if p.id not in kept]
+    gap = {p.id: float(gaps(low, high, *own).min()) for p, low, high in zip(rest, *_boxes(assembly, rest), strict=True)}
+    return {part: 0.0 if apart.get(part) == 0.0 else metres for part, metres in gap.items()}
 
 
 def with_floating(assembly: Assembly, apart: Mapping[str, float], up: Floats) -> dict[str, float] | None:
@@ -82,20 +92,6 @@ def _boxes(assembly: Assembly, parts: Sequence[Part]) -> tuple[Floats, Floats]:
     """(n, 3) the lowest and the highest corners of the parts' boxes, metres."""
     points = [assembly.points_of(p) for p in parts]
     return np.array([p.min(axis=0) for p in points]), np.array([p.max(axis=0) for p in points])
-
-
-def _without(assembly: Assembly, kept: Collection[str], apart: Mapping[str, float]) -> dict[str, float]:
-    """What is no part of the machine, where that is the parts `kept`; the ground stays the ground."""
-    there = _drawn(assembly)
-    rest = [p for p in there if p.id not in kept]
-    if not rest or len(rest) == len(there):
-        return {}
-    own, others = _boxes(assembly, [p for p in there if p.id in kept]), _boxes(assembly, rest)
-    found = {}
-    for part, low, high in zip(rest, *others, strict=True):
-        metres = float(gaps(low, high, *own).min())
-        found[part.id] = 0.0 if apart.get(part.id) == 0.0 else metres or TOUCHING
-    return found
 
 
 def _is_called(assembly: Assembly, parts: Sequence[Part], words: Collection[str]) -> bool:

@@ -48,7 +48,6 @@ from yellowiron.alignment.axes.unfound import axis_findings, lines_of, rough_axe
 from yellowiron.alignment.copies import copies_of
 from yellowiron.alignment.facing import Facing
 from yellowiron.alignment.features.distance import Touch, touch_of
-from yellowiron.alignment.features.separate_parts import separate_parts
 from yellowiron.alignment.features.solids import solids_of
 from yellowiron.alignment.features.tracks import Track
 from yellowiron.alignment.files.decisions import decided
@@ -80,7 +79,7 @@ from yellowiron.alignment.labelling.track_places import (
     without_tracks,
 )
 from yellowiron.alignment.labelling.undercut import regrounded, too_low, undercut
-from yellowiron.alignment.machines import called_machine
+from yellowiron.alignment.machines import apart_from
 from yellowiron.alignment.structure.ground_cut import parted
 from yellowiron.alignment.structure.observation import Observation, observe
 from yellowiron.alignment.tolerances import CONTACT
@@ -118,8 +117,9 @@ HEARD = 0.9
 
 @dataclass(frozen=True, eq=False)
 class Reading:
-    """What was `found` where the parts `apart` (of the model without copies, `single`) are none of the machine's; what
-    the judge makes of it (`score`), None where contacts found the machine."""
+    """What was `found` where the parts `apart` (part id → metres from the machine, 0 under it; of the model without
+    copies, `single`) are none of the machine's; what the judge makes of it (`score`, its points), None where contacts
+    found the machine."""
 
     found: Alignment
     single: Assembly
@@ -136,7 +136,8 @@ def read(
     square: Floats | None,
     way: Mapping[str, float] | None,
 ) -> Reading:
-    """`align` where the parts of `way` are none of the machine's: None where that is to be found out."""
+    """`readings.align`, its arguments and errors, of a model that has parts, where the parts of `way` (part id → metres
+    from the machine) are none of the machine's; None where that is to be found out."""
     decisions, told = decided(assembly, template, edits)
     edited = {part: decision.role or "" for part, decision in decisions.items()}
     said, heard = heard_of_whole(edits, edited, assembly, template, choices or {})
@@ -147,7 +148,7 @@ def read(
     copies = {copy: first for copy, first in copies_of(drawn).items() if copy not in edited}
     single = _without(drawn, copies)
     wanted = frozenset(part for part, role in edited.items() if role)
-    alone = way if way is not None else _apart(single, template, wanted)
+    alone = way if way is not None else apart_from(single, template, wanted)
     apart = dict(alone)
     tracking = _without(single, apart)
     tracked, tracks = tracks_in(tracking, template)
@@ -291,15 +292,6 @@ def read(
     found = _with_all_axes(found, _without(assembly, aside), drawn_axles, answer, observation, frame)
     score = judged.score if judged is not None and answer.judged is not None else None
     return Reading(found, single, alone, score)
-
-
-def _apart(assembly: Assembly, template: Template, wanted: frozenset[str]) -> Mapping[str, float]:
-    """The parts that stand apart from the machine, or from the one of several that is called so."""
-    apart = separate_parts(assembly)
-    kept = wanted & apart.keys()
-    apart = separate_parts(assembly, kept) if kept else apart
-    called = called_machine(assembly, template, apart, wanted)
-    return apart if called is None else called
 
 
 def _with_all_axes(

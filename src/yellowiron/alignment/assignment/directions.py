@@ -84,3 +84,12 @@ def never_together(firsts: Sequence[Floats]) -> list[tuple[int, int]]:
     """The pairs of directions, both ways round, that are not across each other."""
     every = range(len(firsts))
     return [(a, b) for a in every for b in every if abs(float(firsts[a] @ firsts[b])) > NOT_ACROSS]
+
+
+@remembered
+def sections_of(template: Template) -> tuple[frozenset[str], ...]:
+    """The bodies of arms that slide in each other, each boom or mast by itself."""
+    arms = {role.name for role in template.roles if role.kind == "arm"}
+    pairs = [tuple(str(b) for b in template.bodies_of(j)) for j in template.joints if j.type == "prismatic"]
+    graph = nx.Graph([pair for pair in pairs if set(pair) <= arms])
+    return tuple(frozenset(group) for group in sorted(nx.connected_components(graph), key=sorted))

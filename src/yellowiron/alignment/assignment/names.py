@@ -16,9 +16,9 @@ from collections.abc import Collection, Iterable, Iterator, Mapping, Sequence
 from dataclasses import dataclass, field, replace
 from importlib import resources
 
-import networkx
 from rapidfuzz.distance import DamerauLevenshtein
 
+from yellowiron.alignment.assignment.directions import sections_of
 from yellowiron.model.assembly import Part
 from yellowiron.model.specification import fold
 from yellowiron.model.template import ITSELF, VAGUE, Role, Template
@@ -54,7 +54,9 @@ _HIGH = re.compile(r"[\x80-\xff\u0152-\u2122]{2,}")
 _COUNT = re.compile(r"[\s_#.-]*\d*$")
 _LINK = re.compile(r"link[\W\d_]*$", re.IGNORECASE)
 _SECTION = re.compile(r"(?<!\d)0?[1-9]$")
-_FIRST = re.compile(r"^.*?(?:[A-Z]+(?![a-z])|[A-Z]?[a-z]+|$)[\W_]*")
+"""The number that sections are given, unlike those of modelling tools, which have three digits."""
+_FIRST = re.compile(r"^.*?(?:[A-Z]+(?![a-z])|[A-Z]?[a-z]+|\Z)[\W_]*", re.DOTALL)
+"""A name's first word and what is before and behind it; all of a name without one."""
 LINKS = 4
 """Of so many names that end in "link", and of most of a model's, it is a robot description's word for a body."""
 _SIDES = {"l": "left", "r": "right"}
@@ -466,12 +468,3 @@ def _any_section(scores: list[dict[str, float]], parts: Sequence[Part], template
         alike = next((group & said.keys() for group in groups if best in group), set[str]())
         found.append(said | dict.fromkeys(sorted(alike), said.get(best, 0.0)))
     return found
-
-
-@remembered
-def sections_of(template: Template) -> tuple[frozenset[str], ...]:
-    """The bodies of arms that slide in each other, each boom or mast by itself."""
-    arms = {role.name for role in template.roles if role.kind == "arm"}
-    pairs = [tuple(str(b) for b in template.bodies_of(j)) for j in template.joints if j.type == "prismatic"]
-    graph = networkx.Graph([pair for pair in pairs if set(pair) <= arms])
-    return tuple(frozenset(group) for group in sorted(networkx.connected_components(graph), key=sorted))

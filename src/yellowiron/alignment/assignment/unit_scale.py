@@ -12,8 +12,8 @@ from scipy.spatial import ConvexHull, QhullError
 from scipy.spatial.distance import pdist
 
 from yellowiron.alignment.features.cylinders import cylinders_of
-from yellowiron.alignment.features.separate_parts import separate_parts
 from yellowiron.alignment.features.solids import size_of, solids_of
+from yellowiron.alignment.machines import apart_from
 from yellowiron.alignment.tolerances import CONTACT
 from yellowiron.model.assembly import Assembly, DeclaredJoint
 from yellowiron.model.finding import Finding
@@ -60,7 +60,7 @@ def to_scale(assembly: Assembly, template: Template, specifications: Specificati
     length = specifications.number(wanted.name) if wanted is not None else None
     if length is None or length <= 0.0:
         return _to_usual_size(assembly, template)
-    drawn = _extent(assembly)
+    drawn = _extent(assembly, template)
     if drawn <= 0.0 or POSES[0] <= drawn / length <= POSES[1]:
         return assembly
     read = f"The CAD model is {drawn:.4g} m long, the sheet's machine {length:.4g} m"
@@ -85,7 +85,7 @@ def _to_usual_size(assembly: Assembly, template: Template) -> Assembly:
     if wanted is None or not wanted.minimum or not wanted.maximum:
         return assembly
     usual = wanted.usual_length or (wanted.minimum, wanted.maximum)
-    drawn = _extent(assembly)
+    drawn = _extent(assembly, template)
     unknown = any(f.code == "CAD009" and f.severity == "warning" for f in assembly.findings)
     if drawn <= 0.0 or (not unknown and TOY <= drawn <= POSES[1] * wanted.maximum):
         return assembly
@@ -140,9 +140,9 @@ def _rescaled(assembly: Assembly, factor: float, words: str) -> Assembly:
     return replace(scaled(assembly, factor), findings=(*assembly.findings, finding))
 
 
-def _extent(assembly: Assembly) -> float:
+def _extent(assembly: Assembly, template: Template) -> float:
     """Metres between the two points of the machine that are farthest apart; what stands apart does not count."""
-    apart = separate_parts(assembly)
+    apart = apart_from(assembly, template)
     clouds = [assembly.points_of(p) for p in assembly.parts if p.id not in apart]
     clouds = [c for c in clouds if len(c)]
     if not clouds:

@@ -29,6 +29,7 @@ WITHIN, WITHOUT, WIDE = 0.7, 1.1, 4.0
 """… none nearer to the line than this share of the barrel's radius, some farther than this, and none than this."""
 
 BY_LENGTH = "the length of its parts"
+"""How a line is told that nothing round says."""
 
 
 def cylinder_line(barrel: Body | None, rod: Body | None) -> Line | None:

@@ -48,8 +48,8 @@ class Direction:
 
 def linkages_of(template: Template, bodies: Mapping[str, Body]) -> list[tuple[tuple[JointTemplate, ...], bool]]:
     """The template's joints between bodies that are there, in groups that closed chains hold together where all bodies
-    are there, and whether a group is planar: a hinge that no chain closes is a group by itself and is not, nor is an
-    upright one of which the rest is not there."""
+    are there, and whether a group is planar: a hinge that no chain closes is a group by itself and is not, nor is one
+    of which the rest is not there and that is upright, or whose direction the template says."""
     edges: dict[str, tuple[str, str]] = {}
     for joint in template.joints:
         a, b = template.bodies_of(joint)
@@ -59,15 +59,16 @@ def linkages_of(template: Template, bodies: Mapping[str, Body]) -> list[tuple[tu
     for block in graphs.blocks(edges):
         there = tuple(template.joint(name) for name in block if set(edges[name]) <= bodies.keys())
         if there:
-            planar = len(block) > 1 and not (len(there) == 1 and is_upright(there, template))
+            alone = len(there) == 1 and (there[0].direction is not None or is_upright(there, template))
+            planar = len(block) > 1 and not alone
             found.append((there, planar))
     return found
 
 
 def is_upright(linkage: Sequence[JointTemplate], template: Template) -> bool:
-    """Whether a linkage steers or slews: one of its hinges joins two frames or is upright by the template, or it moves
-    wheels."""
-    if steering_joints(template) & {j.name for j in linkage} or _told(linkage) == "vertical":
+    """Whether a linkage steers or slews: one of its hinges joins two frames, or it moves wheels, or the template says
+    that one of several hinges is upright."""
+    if steering_joints(template) & {j.name for j in linkage} or (len(linkage) > 1 and _told(linkage) == "vertical"):
         return True
     frames = {r.name for r in template.roles if r.kind == "frame" and r.rigid}
     return any(j.type == "revolute" and set(template.bodies_of(j)) <= frames for j in linkage)
@@ -85,7 +86,8 @@ def direction_of(
 ) -> Direction:  # fmt: skip
     """The direction of a linkage's hinges."""
     steering = is_upright(linkage, template)
-    expected = frame.up if steering else frame.forward if _told(linkage) == "lengthwise" else frame.left
+    lengthwise = frame.forward if _told(linkage) == "lengthwise" else None
+    expected = frame.up if steering else frame.left if lengthwise is None else lengthwise
     slides = [lines[j.name] for j in linkage if j.name in lines]
     names = sorted({str(b) for j in linkage for b in template.bodies_of(j)})
     ways, weights = _votes([bodies[n] for n in names if n in bodies], slides)

@@ -10,6 +10,7 @@ import networkx
 import numpy as np
 from numpy.typing import NDArray
 
+from yellowiron.alignment.assignment.directions import sections_of
 from yellowiron.alignment.axes.bodies import Body, bodies_of
 from yellowiron.alignment.axes.cylinder_lines import BY_LENGTH, cylinder_line, trunnion_of
 from yellowiron.alignment.axes.directions import (
@@ -166,14 +167,13 @@ def _lines_told(
     lines: Mapping[str, Line], template: Template, bodies: Mapping[str, Body], frame: Frame
 ) -> dict[str, Line]:
     """The lines, those along what the template says that are far from what is drawn: a beam is wider than it is long,
-    and a carriage than it is high."""
-    ways = {"lateral": frame.left, "vertical": frame.up, "lengthwise": frame.forward}
+    and a carriage than it is high. What turns on the machine (a grader's blade on its circle) has its own direction."""
     found = dict(lines)
     for name, line in lines.items():
         joint = template.joint(name)
-        told = ways.get(joint.direction or "")
+        told = frame.along(joint.direction)
         limit = _FAR_BY_LENGTH if line.how == BY_LENGTH else _FAR
-        if told is None or abs(float(line.direction @ told)) > limit:
+        if told is None or abs(float(line.direction @ told)) > limit or _is_turned(joint, template):
             continue
         moved = bodies.get(str(template.bodies_of(joint)[1]))
         origin = np.median(moved.samples, axis=0) if moved is not None else line.origin
@@ -181,16 +181,22 @@ def _lines_told(
     return found
 
 
+def _is_turned(joint: JointTemplate, template: Template) -> bool:
+    """Whether what carries a joint turns about an upright, so that the machine's left and front are not its own."""
+    upright = {j.name for j in template.joints if j.type == "revolute" and j.direction == "vertical"}
+    rest = networkx.Graph(template.bodies_of(j) for j in template.joints if j.name not in upright | {joint.name})
+    rest.add_nodes_from((template.root, template.bodies_of(joint)[0]))
+    return joint.direction != "vertical" and not networkx.has_path(rest, template.root, template.bodies_of(joint)[0])
+
+
 def _parallel_sections(lines: Mapping[str, Line], template: Template) -> dict[str, Line]:
     """The lines, those of sections that slide in each other, a mast's or a boom's, as the best known of them points."""
-    kinds = {r.name: r.kind for r in template.roles}
-    pairs = {n: tuple(str(b) for b in template.bodies_of(template.joint(n))) for n in lines}
-    sections = networkx.Graph(
-        [(*pair, {"slide": n}) for n, pair in pairs.items() if not {kinds[b] for b in pair} & {"barrel", "rod"}]
-    )
+    pairs = {n: {str(b) for b in template.bodies_of(template.joint(n))} for n in lines}
     found = dict(lines)
-    for group in sorted(networkx.connected_components(sections), key=sorted):
-        slides = sorted(str(n) for *_, n in sections.subgraph(group).edges(data="slide"))
+    for group in sections_of(template):
+        slides = sorted(n for n, pair in pairs.items() if pair <= group)
+        if not slides:
+            continue
         best = min((lines[n] for n in slides), key=lambda line: round(line.angle, 9))
         for name in slides:
             own = lines[name]
@@ -219,7 +225,7 @@ def _single(
         left = wheels_beside((a, b), template, bodies, frame)
         left = frame.left if left is None else left
         ways = [unit(np.cross(left, frame.up))] if left is not None else ways
-    told = {"lateral": frame.left, "vertical": frame.up, "lengthwise": frame.forward}.get(joint.direction or "")
+    told = frame.along(joint.direction)
     ways = [told] if told is not None else ways
     if not ways:
         ways = [direction_of([joint], template, bodies, {}, frame).vector]

@@ -111,6 +111,10 @@ class Frame:
     left: Floats | None = None
     up: Floats | None = None
 
+    def along(self, direction: str | None) -> Floats | None:
+        """(3,) what a template calls `lateral`, `vertical` or `lengthwise`; None where that is not known."""
+        return {"lateral": self.left, "vertical": self.up, "lengthwise": self.forward}.get(direction or "")
+
 
 def plane_of(direction: Floats) -> Floats:
     """(2, 3) two unit vectors across a direction and each other, the same for the same direction."""

@@ -9,8 +9,7 @@ import numpy as np
 
 from yellowiron.alignment.assignment.answer import Answer, Judged, open_choices
 from yellowiron.alignment.assignment.cp_sat import MISSING_WEIGHT, Solution
-from yellowiron.alignment.assignment.directions import ALIKE, NOT_ACROSS, linkages_of
-from yellowiron.alignment.assignment.names import sections_of
+from yellowiron.alignment.assignment.directions import ALIKE, NOT_ACROSS, linkages_of, sections_of
 from yellowiron.alignment.assignment.search import machine_of
 from yellowiron.alignment.assignment.sides import twin_role
 from yellowiron.alignment.facing import UNTOLD, Facing
